@@ -18,8 +18,8 @@ std::string text(const Answer<3>& answer) {
   if (!answer.contact) return motion_status_names[static_cast<int>(answer.status)];
   const Contact<3>& contact = *answer.contact;
   char line[128];
-  std::snprintf(line, sizeof line, "contact at time %.6f, point (%.6f %.6f %.6f), by %s",
-                contact.rounded_time(), contact.point[0], contact.point[1], contact.point[2],
+  std::snprintf(line, sizeof line, "contact at time %.6f, point (%.6f %.6f %.6f), by %s", contact.time,
+                contact.point[0], contact.point[1], contact.point[2],
                 contact.body == Body_feature::vertex ? "the moving end" : "the edge");
   return line;
 }

@@ -81,13 +81,13 @@ std::vector<DetectionOutput> detect(const Body<3>& body, const VecCoord& free_po
 
   std::vector<DetectionOutput> contacts;
   for (const Contact<3>& met : report.contacts) {
-    DetectionOutput contact{{met.vertex, met.vertex}, {1, 0}, met.point, -1 * met.normal, met.rounded_time()};
+    DetectionOutput contact{{met.vertex, met.vertex}, {1, 0}, met.point, -1 * met.normal, met.time};
     if (met.body == Body_feature::edge) {
       // Vertices move in order: where both ends were when this one met the wall.
       const auto [u, v] = body.edges()[met.feature];
       const std::uint32_t other = u == met.vertex ? v : u;
       const Point<3>& start = body.positions()[met.vertex];
-      const Point<3> p = start + met.rounded_time() * (free_position[met.vertex] - start);
+      const Point<3> p = start + met.time * (free_position[met.vertex] - start);
       const Point<3>& q = other < met.vertex ? trial.positions()[other] : body.positions()[other];
       const double share = std::clamp(dot(met.point - p, q - p) / dot(q - p, q - p), 0.0, 1.0);
       contact.vertices[1] = other;

@@ -116,7 +116,7 @@ Sweep_tally run(const Sweep_setting& setting) {
     if (complete && complete->body == Body_feature::edge) {
       ++tally.edge_contacts;
       tally.missed += !segments;
-      tally.late += segments && complete->time < segments->time;
+      tally.late += segments && complete->exact_time() < segments->exact_time();
     }
     tally.vertex_contacts += complete && complete->body == Body_feature::vertex;
     tally.false_contacts += segments && !complete;

@@ -150,15 +150,14 @@ Search_tally locate_all(const Scene<D>& scene, const std::vector<Trial<D>>& tria
   for (const Trial<D>& t : trials) {
     const Contact<D> found =
         *sweep_edge<D>(snapshot, t.p, t.target, t.q, t.chain, options, tally.counts).contact;
-    const auto order = found.time <=> t.exact.time;
+    const auto order = found.exact_time() <=> t.exact.exact_time();
     tally.same_time += order == 0;
     tally.late += order > 0;
     tally.same_feature += feature(snapshot, found) == feature(snapshot, t.exact);
-    const Point<D> end = t.p.position + found.rounded_time() * (t.target - t.p.position);
-    tally.errors.push_back({t.exact.rounded_time() - found.rounded_time(),
-                            order == 0 ? 0 : distance(t.exact.point, end, t.q.position) / scene.step,
-                            length(found.point - t.exact.point) / scene.step,
-                            degrees_between(found.normal, t.exact.normal)});
+    const Point<D> end = t.p.position + found.time * (t.target - t.p.position);
+    tally.errors.push_back(
+        {t.exact.time - found.time, order == 0 ? 0 : distance(t.exact.point, end, t.q.position) / scene.step,
+         length(found.point - t.exact.point) / scene.step, degrees_between(found.normal, t.exact.normal)});
   }
   return tally;
 }

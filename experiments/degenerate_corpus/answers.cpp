@@ -64,7 +64,7 @@ class Answerer {
         contact = vertex_contact(snapshot, c.points[0], c.moves[0].to, *result.contact, counts.walk);
     }
     if (!contact) return {};
-    return {true, 0, text_of(contact->time)};
+    return {true, 0, text_of(contact->exact_time())};
   }
 
   Row body(const Case<D>& c, Touch touch) const {
@@ -84,7 +84,7 @@ class Answerer {
     options.sweep.touch = touch;
     for (std::size_t m = 0; m < c.moves.size(); ++m)
       if (const auto contact = body.move_vertex(c.moves[m].vertex, c.moves[m].to, options, counts))
-        return {true, m, text_of(contact->time)};
+        return {true, m, text_of(contact->exact_time())};
     return {};
   }
 
@@ -97,7 +97,7 @@ class Answerer {
     const Vertex_result<D> result = reshaping.move(c.moves[0].vertex, c.moves[0].to);
     if (result.end == Move_end::reached) return {};
     if (result.end != Move_end::contact) throw std::runtime_error(c.id + ": the vertex cannot move");
-    return {true, 0, text_of(result.hit->time)};
+    return {true, 0, text_of(result.hit->exact_time())};
   }
 
   Cell_soup<D> soup_;

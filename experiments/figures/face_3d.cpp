@@ -90,12 +90,13 @@ void draw_face_3d(const std::filesystem::path& folder) {
   const Contact<3>& contact = *move.face.contact;
   require(contact.body == Body_feature::face && contact.kind == Contact_kind::vertex && contact.point == tip,
           "face: it is met by the tip");
-  const Point<3> stop = a + contact.rounded_time() * (b - a);
-  require(!Move(snapshot, a + (contact.rounded_time() * 0.5) * (b - a)).face.contact,
+  const Point<3> stop = a + contact.time * (b - a);
+  require(!Move(snapshot, a + (contact.time * 0.5) * (b - a)).face.contact,
           "face: free half-way to the contact");
 
   Space_plot before = plot_of("Before: p is to go from p(0) to p(1)", snapshot),
-             after = plot_of("At contact: s = " + text_of(contact.time) + "; all edges sweep free", snapshot);
+             after = plot_of("At contact: s = " + text_of(contact.exact_time()) + "; all edges sweep free",
+                             snapshot);
   for (const Point<3>& x : {q, r}) before.triangle(a, b, x, swept_by_edges);
   add_face(before, a, face_colour, colours::start);
   before.label(a, "p(0)", 12, 4);

@@ -34,7 +34,7 @@ Json to_json(const Snapshot<D>& snapshot, const Contact<D>& contact) {
                                                                 : loop.size();
   Json points = Json::array();
   for (std::size_t i = 0; i < size; ++i) points.push_back(snapshot.point(loop[(first + i) % loop.size()]));
-  return {{"time", to_json(contact.time)},
+  return {{"time", to_json(contact.exact_time())},
           {"point", contact.point},
           {"normal", contact.normal},
           {"body", body_features[static_cast<std::size_t>(contact.body)]},

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURES_NUMBERS_H
 #define CELLWALK_EXPERIMENTS_FIGURES_NUMBERS_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/walk/contact.h>
 
 #include <nlohmann/json.hpp>
 

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURES_SPACE_PLOT_H
 #define CELLWALK_EXPERIMENTS_FIGURES_SPACE_PLOT_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/internal/drawing/figure.h>
+#include <cellwalk/walk/contact.h>
 
 #include <span>
 #include <string>

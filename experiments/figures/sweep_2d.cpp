@@ -126,11 +126,11 @@ class Plot {
     drawing::add_disc(panel_.drawing, x, size, layer(9), material(colour));
   }
   void contact(const Contact<2>& c, const std::string& time) {
-    edge(c.rounded_time(), thick, contact_colour);
+    edge(c.time, thick, contact_colour);
     spot(c.point, 1.2 * dot, contact_colour);
     drawing::add_flat_arrow(panel_.drawing, c.point, c.normal, 0.9, 0.8 * thick, layer(10),
                             material(contact_colour));
-    label(p_at(c.rounded_time()), time, 14, -6);
+    label(p_at(c.time), time, 14, -6);
   }
   void label(const Point<2>& x, const std::string& text, double right, double up) {
     panel_.labels.push_back({at(x, 0), text, right, up});
@@ -184,30 +184,31 @@ drawing::Panel draw_three_segments(Case& c, Json& json) {
 drawing::Panel draw_triangle(Case& c, Json& json) {
   const auto contact = c.contact(Contact_search::exact);
   require(contact.has_value(), "2D: the sweep of the triangle finds it");
-  require(contact->time == time_of(floating[2]), "2D: at the time of its vertex");
+  require(contact->exact_time() == time_of(floating[2]), "2D: at the time of its vertex");
   json["triangle"] = {{"contact", to_json(c.snapshot, *contact)}, {"cells", to_json(c.snapshot, c.met)}};
-  Plot plot("2. The complete sweep: blocked at s = " + text_of(contact->time), c, c.met);
+  Plot plot("2. The complete sweep: blocked at s = " + text_of(contact->exact_time()), c, c.met);
   plot.contact(*contact, "s*");
   return plot.panel();
 }
 
 drawing::Panel draw_exhaustive(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::exhaustive);
-  require(exact && found && exact->time == found->time, "2D: the exhaustive search finds the exact time");
+  require(exact && found && exact->exact_time() == found->exact_time(),
+          "2D: the exhaustive search finds the exact time");
   const auto vertices = vertices_inside(c);
   require(vertices.size() == high_spikes.size(), "2D: one vertex of each spike in the triangle");
-  require(vertices.begin()->first == found->time, "2D: the first of these vertices is the contact");
-  Plot plot("3. Exact, and exhaustive: s = " + text_of(found->time), c, c.met);
+  require(vertices.begin()->first == found->exact_time(), "2D: the first of these vertices is the contact");
+  Plot plot("3. Exact, and exhaustive: s = " + text_of(found->exact_time()), c, c.met);
   Json candidates = Json::array();
   for (const auto& [time, vertex] : vertices) {
     candidates.push_back({{"vertex", vertex}, {"time", to_json(time)}});
-    if (time != found->time) {
+    if (time != found->exact_time()) {
       plot.edge(time.rounded(), medium, blocked_step);
       plot.spot(vertex, 0.8 * dot, blocked_step);
       plot.label(p_at(time.rounded()), fmt::format("{:.2f}", time.rounded()), 14, -6);
     }
   }
-  plot.contact(*found, fmt::format("{:.2f}", found->rounded_time()));
+  plot.contact(*found, fmt::format("{:.2f}", found->time));
   json["exact"] = to_json(c.snapshot, *exact);
   json["exhaustive"] = {{"contact", to_json(c.snapshot, *found)},
                         {"candidates", candidates},
@@ -217,8 +218,9 @@ drawing::Panel draw_exhaustive(Case& c, Json& json) {
 
 drawing::Panel draw_dichotomic(Case& c, Json& json) {
   const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::dichotomic);
-  require(found && found->time <= exact->time, "2D: the dichotomic search is never late");
-  Plot plot(fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance, text_of(found->time)),
+  require(found && found->exact_time() <= exact->exact_time(), "2D: the dichotomic search is never late");
+  Plot plot(fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance,
+                        text_of(found->exact_time())),
             c, c.met);
   Json steps = Json::array();
   double low = 0, high = 1;
@@ -233,7 +235,7 @@ drawing::Panel draw_dichotomic(Case& c, Json& json) {
       plot.label(p_at(middle), text_of(Exact_time(middle)) + (is_free ? " +" : " -"), 14, -6);
     (is_free ? low : high) = middle;
   }
-  require(low == found->rounded_time(), "2D: the dichotomic search ends where its bisection does");
+  require(low == found->time, "2D: the dichotomic search ends where its bisection does");
   plot.contact(*found, "");
   json["dichotomic"] = {{"contact", to_json(c.snapshot, *found)}, {"tolerance", tolerance}, {"steps", steps}};
   return plot.panel();
@@ -248,7 +250,7 @@ void draw_sweep_2d(const std::filesystem::path& folder) {
   Sweep_options paper;
   paper.sweep = Sweep::three_segments;
   const auto by_segments = spikes.sweep(paper).contact, by_triangle = spikes.contact(Contact_search::exact);
-  require(by_segments && by_triangle && by_segments->time == by_triangle->time,
+  require(by_segments && by_triangle && by_segments->exact_time() == by_triangle->exact_time(),
           "2D: three segments find spikes that cross the third one");
 
   const Json motion{{"p", a}, {"target", b}, {"q", q}};

@@ -57,10 +57,11 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
           "3D: the edge meets an edge of the spike");
   const auto exhaustive = sweep(Sweep::triangle, Contact_search::exhaustive),
              dichotomic = sweep(Sweep::triangle, Contact_search::dichotomic);
-  require(exhaustive && exhaustive->time == exact->time, "3D: the exhaustive search finds the exact time");
+  require(exhaustive && exhaustive->exact_time() == exact->exact_time(),
+          "3D: the exhaustive search finds the exact time");
   const double late = Sweep_options{}.tolerance;
-  require(dichotomic && dichotomic->time <= exact->time &&
-              exact->rounded_time() - dichotomic->rounded_time() <= late,
+  require(dichotomic && dichotomic->exact_time() <= exact->exact_time() &&
+              exact->time - dichotomic->time <= late,
           "3D: the dichotomic search is within its tolerance");
 
   const std::vector<Cell> met = cells_met<3>(snapshot, p.cell, {a, b, q});
@@ -71,8 +72,9 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   walk(snapshot, locator.particle_at(b).value(), q, counts.walk, options);
 
   Space_plot segments = plot_of("Three segments: all of them are free", snapshot, traversed),
-             triangle = plot_of("The complete sweep: blocked at s = " + text_of(exact->time), snapshot, met);
-  const Point<3> stop = a + exact->rounded_time() * (b - a);
+             triangle =
+                 plot_of("The complete sweep: blocked at s = " + text_of(exact->exact_time()), snapshot, met);
+  const Point<3> stop = a + exact->time * (b - a);
   triangle.line(stop, q, edge_radius, colours::contact);
   triangle.contact(*exact);
   triangle.label(stop, "s*", 12, -8);

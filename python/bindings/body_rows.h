@@ -30,7 +30,7 @@ using Body_contact_row_3 = Body_contact_row<3>;
 
 template <int D>
 Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Contact<D>& contact) {
-  return {contact.rounded_time(),
+  return {contact.time,
           contact.point,
           contact.normal,
           contact.vertex,
@@ -67,7 +67,7 @@ Rejected_row<D> to_row(const Snapshot<D>& snapshot, const Rejected_move<D>& move
   row.stays = move.stays();
   row.is_vertex_blocked = move.is_vertex_blocked;
   if (move.contact) {
-    row.time = move.contact->rounded_time();
+    row.time = move.contact->time;
     row.point = move.contact->point;
     row.normal = move.contact->normal;
     row.cell = number_of(snapshot, snapshot.cell_of(move.contact->facet));

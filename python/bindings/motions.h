@@ -99,8 +99,8 @@ struct Chunk {
   Counts counts;
 
   void add(const Snapshot<D>& snapshot, std::size_t row, const Contact<D>& contact) {
-    contacts.push_back({contact.rounded_time(), contact.point, contact.normal,
-                        static_cast<std::uint32_t>(row), number_of(snapshot, snapshot.cell_of(contact.facet)),
+    contacts.push_back({contact.time, contact.point, contact.normal, static_cast<std::uint32_t>(row),
+                        number_of(snapshot, snapshot.cell_of(contact.facet)),
                         static_cast<std::uint32_t>(snapshot.facet_of(contact.facet)),
                         static_cast<std::uint16_t>(contact.kind), static_cast<std::uint16_t>(contact.body)});
   }

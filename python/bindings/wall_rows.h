@@ -59,7 +59,7 @@ class Wall_rows {
     end[row] = static_cast<std::uint8_t>(result.end);
     if (result.end == Move_end::reached) return;
     time[row] = result.end == Move_end::cell ? result.share
-                : result.hit                 ? result.hit->time.rounded()
+                : result.hit                 ? result.hit->time
                                              : std::numeric_limits<double>::quiet_NaN();
     cell[row] = number_of(snapshot_, result.cell);
     if (!result.hit) return;
@@ -72,7 +72,7 @@ class Wall_rows {
  private:
   Wall_hit_row<D> to_row(const Wall_hit<D>& hit) const {
     Wall_hit_row<D> row{};
-    row.time = hit.time.rounded();
+    row.time = hit.time;
     row.point = hit.point;
     row.normal = hit.normal + Vector<D>{};  // without negative zeros
     row.weights = hit.weights;

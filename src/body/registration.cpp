@@ -144,7 +144,7 @@ class Registration {
 
   /// Drops the sides of both ends of an edge that no chain joins with one of the other end. True if any were
   /// dropped; none at all are left where the edge crosses a wall.
-  bool narrow(std::uint32_t e, std::optional<Wall_contact<D>>& contact) {
+  bool narrow(std::uint32_t e, std::optional<Contact<D>>& contact) {
     Sides &of_u = sides_[soup_.edges[e][0]], &of_v = sides_[soup_.edges[e][1]];
     if (of_u.size() == 1 && of_v.size() == 1 && is_checked_[e]) return false;
     std::vector<bool> keep_u(of_u.size()), keep_v(of_v.size());
@@ -182,7 +182,7 @@ class Registration {
   }
 
   /// Narrows an edge, and all that depend on it. False if an edge has no chain then.
-  bool narrow_from(std::uint32_t first, std::uint32_t& failed, std::optional<Wall_contact<D>>& contact) {
+  bool narrow_from(std::uint32_t first, std::uint32_t& failed, std::optional<Contact<D>>& contact) {
     std::vector<std::uint32_t> todo{first};
     while (!todo.empty()) {
       const std::uint32_t e = todo.back();
@@ -202,14 +202,14 @@ class Registration {
   }
 
   void narrow_all(std::uint32_t e) {
-    std::optional<Wall_contact<D>> contact;
+    std::optional<Contact<D>> contact;
     std::uint32_t failed = e;
     if (!narrow_from(e, failed, contact)) refuse(failed, *contact);
   }
 
   void choose(std::uint32_t v) {
     const Sides all = sides_[v];
-    std::optional<Wall_contact<D>> contact;
+    std::optional<Contact<D>> contact;
     std::uint32_t failed = 0;
     for (const Particle<D>& side : all) {
       dropped_ = {{v, all}};
@@ -229,7 +229,7 @@ class Registration {
                             where));
   }
 
-  [[noreturn]] void refuse(std::uint32_t e, const Wall_contact<D>& contact) const {
+  [[noreturn]] void refuse(std::uint32_t e, const Contact<D>& contact) const {
     const auto [u, v] = soup_.edges[e];
     throw Error(
         Error_code::outside,

@@ -15,7 +15,7 @@ namespace {
 template <int D>
 bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, const Contact<D>& met,
           const Sweep_options& options, Body_counts& counts) {
-  if (met.time == Exact_time()) return false;
+  if (met.exact_time() == Exact_time()) return false;
   const Point<D> from = body.positions[vertex];
   Sweep_options tried = options;
   tried.search = Contact_search::exact;  // whether there is a contact matters, not where

@@ -48,7 +48,7 @@ const Corner& Target_step<D>::first_blocked(const Rejected_move<D>& blocked) con
 
 /// Completes the contact of a vertex that stays: walks and searches of chains left out where the wall is.
 template <int D>
-void Target_step<D>::locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
+void Target_step<D>::locate_wall(Rejected_move<D>& answer, std::optional<Contact<D>>& met,
                                  const Point<D>& target) const {
   if (!answer.stays()) return;
   const std::uint32_t v = answer.vertex;
@@ -58,7 +58,7 @@ void Target_step<D>::locate_wall(Rejected_move<D>& answer, std::optional<Wall_co
     const Point<D>&from = edge ? target : body_.positions[v],
           &to = edge ? body_.positions[edge->other] : target;
     locate_contact(snapshot(), from, to, *met);
-    answer.contact.emplace(to_contact(*met, Exact_time(met->time), body));
+    answer.contact = *met;
   }
   answer.contact->body = body;
   answer.contact->vertex = v;
@@ -184,7 +184,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
         move_on_sides(snapshot(), to, target, counts_.edges.walk, recorded, choices);
     had_choice = walked.had_choice;
     if (walked.contact) {
-      answer.is_vertex_blocked = tried.keep(walked.contact);
+      answer.is_vertex_blocked = tried.keep_met(walked.contact);
       return tried;
     }
   }
@@ -193,7 +193,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =
             closed_meeting<D>(snapshot(), from.cell, {from.position, target, from.position}, counts_.edges)) {
-      answer.is_vertex_blocked = tried.keep(touch);
+      answer.is_vertex_blocked = tried.keep_touch(touch);
       return tried;
     }
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
@@ -262,7 +262,7 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number
   if (stops && !is_crossed) {
     const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      if (tried.keep(closed_meeting<D>(snapshot(), path.to.cell,
+      if (tried.keep_touch(closed_meeting<D>(snapshot(), path.to.cell,
                                        {path.to.position, q.position, path.to.position}, edges)))
         return true;
       anew = find_any_chain(snapshot(), path.to, q, edges.walk);
@@ -270,7 +270,7 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number
   } else if (anew.contact && !is_crossed) {
     anew = find_any_chain(snapshot(), path.to, q, edges.walk);
   }
-  if (tried.keep(anew.contact)) return true;
+  if (tried.keep_met(anew.contact)) return true;
   moved.chain = std::move(anew.chain);
   return false;
 }

@@ -21,16 +21,16 @@ namespace cellwalk::detail {
 template <int D>
 struct Tried_move {
   Rejected_move<D> answer;
-  std::optional<Wall_contact<D>> met;
+  std::optional<Contact<D>> met;
 
   /// 0 if nothing was met, 1 if the vertex moves all the same, 2 if it stays.
   int hindrance() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
   /// Keeps the first wall. True if there is one.
-  bool keep(const std::optional<Wall_contact<D>>& wall) {
+  bool keep_met(const std::optional<Contact<D>>& wall) {
     if (wall && !met && !answer.contact) met = wall;
     return wall.has_value();
   }
-  bool keep(const std::optional<Contact<D>>& touch) {
+  bool keep_touch(const std::optional<Contact<D>>& touch) {
     if (touch && !met && !answer.contact) answer.contact = touch;
     return touch.has_value();
   }
@@ -59,8 +59,7 @@ class Target_step {
                     Moved_chain<D>& moved, Tried_move<D>& tried);
   bool is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain<D>& moved);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;
-  void locate_wall(Rejected_move<D>& answer, std::optional<Wall_contact<D>>& met,
-                   const Point<D>& target) const;
+  void locate_wall(Rejected_move<D>& answer, std::optional<Contact<D>>& met, const Point<D>& target) const;
   Contact<D> first_contact(const Rejected_move<D>& blocked, const Point<D>& target);
 
   Body_state<D>& body_;

@@ -26,7 +26,7 @@ double ulp(const Point<D>& p) {
 template <int D>
 bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& contact,
                const std::function<bool(const Point<D>&)>& try_at) {
-  const Point_bounds<D> bounds = bounds_at<D>(p, target, contact.time);
+  const Point_bounds<D> bounds = bounds_at<D>(p, target, contact.exact_time());
   Point<D> nearer, first;  // nearest to p; furthest from the wall
   for (int k = 0; k < D; ++k) {
     const bool is_upwards = target[k] >= p[k];
@@ -50,7 +50,7 @@ bool try_stops(const Point<D>& p, const Point<D>& target, const Contact<D>& cont
     if (is_finite(x) && try_at(x)) return true;
   }
   for (int k = shrink_steps; k >= 1; --k) {
-    const Point<D> x = p + contact.rounded_time() * (1 - std::ldexp(1.0, -k)) * (target - p);
+    const Point<D> x = p + contact.time * (1 - std::ldexp(1.0, -k)) * (target - p);
     if (is_finite(x) && try_at(x)) return true;
   }
   return false;

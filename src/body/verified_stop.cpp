@@ -25,7 +25,7 @@ Vector<D> respond(const Vector<D>& v, std::span<const Vector<D>> normals, const 
 template <int D>
 bool stop_at_contact(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
                      const Contact<D>& contact, Walk_counts& counts) {
-  if (contact.time == Exact_time()) return false;
+  if (contact.exact_time() == Exact_time()) return false;
   const Point<D> from = particle.position;
   Walk_options options;
   options.locates_contact = false;  // whether there is one matters, not where
@@ -47,10 +47,10 @@ Vector<D> advance(const Snapshot<D>& snapshot, Particle<D>& particle, Vector<D> 
     if (result.status == Walk_status::arrived) return velocity;
     Contact<D> contact = vertex_contact(snapshot, particle.position, target, *result.contact, counts);
     stop_at_contact(snapshot, particle, target, contact, counts);
-    if (passed > 0) contact.time = Exact_time(passed + contact.rounded_time() * (1 - passed));
+    if (passed > 0) contact.set_time(Exact_time(passed + contact.time * (1 - passed)));
     met.push_back(contact);
     normals.push_back(contact.normal);
-    passed = std::min(1.0, contact.rounded_time());
+    passed = std::min(1.0, contact.time);
     velocity = respond<D>(velocity, normals, response);
     if (normals.size() >= static_cast<std::size_t>(response.most_contacts)) return velocity;
     if (!(length(velocity) > 0)) return velocity;

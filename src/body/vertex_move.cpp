@@ -16,7 +16,7 @@ namespace {
 /// edge.
 template <int D>
 bool meets_before(const Contact<D>& a, const Contact<D>& b) {
-  if (const auto order = a.time <=> b.time; order != 0) return order < 0;
+  if (const auto order = a.exact_time() <=> b.exact_time(); order != 0) return order < 0;
   return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
 }
 

@@ -36,7 +36,7 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
     if constexpr (Kernel::is_exact)
       answer.contact = vertex_contact(snapshot, particle.position, to, *result.contact, counts.walk);
     else
-      answer.contact = to_contact(*result.contact, Exact_time(result.contact->time), Body_feature::vertex);
+      answer.contact = result.contact;
   }
   return answer;
 }

@@ -77,7 +77,8 @@ Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, c
   const auto try_all = [&](const std::list<Start<D>>& tried) {
     for (const Start<D>& start : tried) {
       const Answer<D> result = sweep(start, exact);
-      if (best_start && result.contact && result.contact->time <= best.contact->time) continue;
+      if (best_start && result.contact && result.contact->exact_time() <= best.contact->exact_time())
+        continue;
       best = result;
       best_start = &start;
       if (best.status == Motion_status::free) return;

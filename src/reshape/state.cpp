@@ -116,9 +116,9 @@ Vertex_result<D> Reshaping_state<D>::move(std::uint32_t point, const Point<D>& t
     result.position = x;
     return true;
   };
-  if (result.end == Move_end::contact && result.hit->time != Exact_time()) {
+  if (result.end == Move_end::contact && result.hit->exact_time() != Exact_time()) {
     Contact<D> contact;
-    contact.time = result.hit->time;
+    contact.set_time(result.hit->exact_time());
     contact.normal = -1.0 * result.hit->normal;
     try_stops<D>(from, target, contact, try_at);
   } else if (result.end == Move_end::touch) {
@@ -134,7 +134,7 @@ Vertex_result<D> Reshaping_state<D>::move(std::uint32_t point, const Point<D>& t
 template <int D>
 bool Reshaping_state<D>::push(const Wall_hit<D>& hit, const Vector<D>& motion) {
   ++counts.pushes;
-  const double left = hit.weights[0] * (1 - hit.time.rounded());
+  const double left = hit.weights[0] * (1 - hit.time);
   double squares = 0;
   for (const double w : hit.resident_weights) squares += w * w;
   const double depth = std::max(0.0, left * dot(motion, hit.normal)) +

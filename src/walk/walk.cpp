@@ -40,8 +40,7 @@ void detail::refuse_removed_cell() {
 }
 
 template <int D>
-void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
-                    Wall_contact<D>& contact) {
+void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Contact<D>& contact) {
   if (contact.normal != Vector<D>{}) return;
   const auto corners = detail::spanning_corners(snapshot.view(snapshot.cell_of(contact.facet)),
                                                 snapshot.facet_of(contact.facet));
@@ -65,8 +64,8 @@ template Walk_result<2> detail::walk_on_sides(const Snapshot<2>&, const Particle
                                               Walk_counts&, const Walk_options&, Sides_taken&);
 template Walk_result<3> detail::walk_on_sides(const Snapshot<3>&, const Particle<3>&, const Point<3>&,
                                               Walk_counts&, const Walk_options&, Sides_taken&);
-template void locate_contact(const Snapshot<2>&, const Point<2>&, const Point<2>&, Wall_contact<2>&);
-template void locate_contact(const Snapshot<3>&, const Point<3>&, const Point<3>&, Wall_contact<3>&);
+template void locate_contact(const Snapshot<2>&, const Point<2>&, const Point<2>&, Contact<2>&);
+template void locate_contact(const Snapshot<3>&, const Point<3>&, const Point<3>&, Contact<3>&);
 
 #define CELLWALK_INSTANTIATE(KERNEL, D)                                                                      \
   template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,           \

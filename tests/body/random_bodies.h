@@ -34,7 +34,7 @@ std::string difference(const Answer<D>& a, const Answer<D>& b) {
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const Contact<D>&x = of_a[i], &y = of_b[i];
     if (x.vertex != y.vertex) return "the vertex of a contact";
-    if (x.time != y.time) return "the time of a contact";
+    if (x.exact_time() != y.exact_time()) return "the time of a contact";
     if (x.point != y.point || x.normal != y.normal) return "the place or the normal of a contact";
     if (x.body != y.body || x.kind != y.kind || x.feature != y.feature) return "the feature of a contact";
   }

@@ -169,7 +169,7 @@ class Body_in_orders {
     for (std::size_t c = 0; c < some.size(); ++c) {
       const Contact<D>&x = some[c], &y = others[c];
       if (some[c].vertex != others[c].vertex) return ": the vertex of a contact";
-      if (x.time != y.time) return ": the time of a contact";
+      if (x.exact_time() != y.exact_time()) return ": the time of a contact";
       if (x.body != y.body || x.feature != y.feature) return ": what of the body is met";
       if (x.kind != y.kind) return ": the kind of what it meets";
       if (x.normal != y.normal) return ": the normal of a contact";

@@ -164,7 +164,7 @@ class Rejection {
   /// time.
   bool is_contact(const Contact<D>& c, const std::vector<Point<D>>& positions, const Point<D>& target) const {
     const Point<D>& from = positions[c.vertex];
-    const Point<D> there = from + c.rounded_time() * (target - from);
+    const Point<D> there = from + c.time * (target - from);
     bool is_there = false;
     if (c.body == Body_feature::vertex) {
       is_there = length(c.point - there) < 1e-6;

@@ -115,7 +115,7 @@ TEST(BodyReject, EdgesThatGoRoundAreToldAndMove) {
       EXPECT_TRUE(blocked[0].stays());
       EXPECT_EQ(blocked[0].contact->point, (Point<2>{3.625, 2}))
           << "that is not where the edge would meet it";
-      EXPECT_EQ(blocked[0].contact->rounded_time(), 0.75);
+      EXPECT_EQ(blocked[0].contact->time, 0.75);
       // Half way, from (1.5, 2.5), the edge meets the end of the membrane.
       ASSERT_EQ(contacts.size(), 1u);
       EXPECT_EQ(contacts[0].body, Body_feature::edge);

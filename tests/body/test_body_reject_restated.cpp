@@ -75,8 +75,9 @@ class Restated_body {
     answer.vertex = vertex;
     const Particle<D> from = particles_[vertex];
     tried.to = from;
-    const auto keep = [&](const Wall_contact<D>& wall, Body_feature body, std::size_t feature) {
-      answer.contact = to_contact(wall, Exact_time(wall.time), body);
+    const auto keep = [&](const Contact<D>& wall, Body_feature body, std::size_t feature) {
+      answer.contact = wall;
+      answer.contact->body = body;
       answer.contact->vertex = vertex;
       answer.contact->feature = static_cast<std::uint32_t>(feature);
     };
@@ -247,9 +248,9 @@ class Restatement {
         x.contact.has_value() != y.contact.has_value())
       return false;
     return !x.contact || (x.contact->facet == y.contact->facet && x.contact->kind == y.contact->kind &&
-                          x.contact->time == y.contact->time && x.contact->normal == y.contact->normal &&
-                          x.contact->body == y.contact->body && x.contact->vertex == y.contact->vertex &&
-                          x.contact->feature == y.contact->feature);
+                          x.contact->exact_time() == y.contact->exact_time() &&
+                          x.contact->normal == y.contact->normal && x.contact->body == y.contact->body &&
+                          x.contact->vertex == y.contact->vertex && x.contact->feature == y.contact->feature);
   }
 
   const oracle::World<D> world_;

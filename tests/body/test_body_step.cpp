@@ -83,7 +83,7 @@ TEST(BodyStep, TouchesCountBeforeAVertexIsBlocked) {
       options.sweep.touch = touch;
       const auto contact = body.move_vertex(0, {6, 0}, options, counts);
       ASSERT_TRUE(contact);
-      EXPECT_DOUBLE_EQ(contact->rounded_time(), time) << edges.size() << " edges";
+      EXPECT_DOUBLE_EQ(contact->time, time) << edges.size() << " edges";
     }
   }
 }
@@ -128,7 +128,7 @@ TEST(BodyStep, ReportsTheEdgeThatMeetsASpike) {
   EXPECT_EQ(contact->vertex, 0u);
   EXPECT_EQ(contact->kind, Contact_kind::edge);
   // The edge meets (2, 1.25, 1): on a line with (4.5, 1.25, 2.5), p is then at height 0.1.
-  EXPECT_NEAR(contact->rounded_time(), 2.4 / 2.45, 1e-12);
+  EXPECT_NEAR(contact->time, 2.4 / 2.45, 1e-12);
   EXPECT_EQ(contact->point[1], 1.25);
   EXPECT_EQ(body.positions()[0], (Point<3>{0.5, 1.25, 2.5})) << "nothing moves where there is a contact";
 }

@@ -40,7 +40,7 @@ TEST(FacesInPlanes, NothingComesBetweenFacesThatShareAnEdge) {
   const auto contact = Wedge(environment.snapshot(), 1.75, 0.25).body.move(0, {18, 11, 1});
   ASSERT_TRUE(contact);
   // The edge meets the corner (10, 5) first, when its moving end is at x = 9.25.
-  EXPECT_EQ(contact->time, Exact_time(0.375));
+  EXPECT_EQ(contact->exact_time(), Exact_time(0.375));
   EXPECT_EQ(contact->point, (Point<3>{10, 5, 1}));
   EXPECT_EQ(contact->kind, Contact_kind::vertex);
   EXPECT_EQ(contact->body, Body_feature::edge);
@@ -58,7 +58,7 @@ TEST(FacesInPlanes, AWallInWhichTheEdgeEndsIsMetWhenTheEdgeMeetsIt) {
   for (const double x : {9.5, 10.5, 11.5, 13.0}) {
     const auto contact = Wedge(environment.snapshot(), 1.75, 0.25).body.move(0, {x, 11, 1});
     ASSERT_TRUE(contact) << x;
-    EXPECT_NEAR(contact->rounded_time(), 5.25 / (x - 4), 1e-12);
+    EXPECT_NEAR(contact->time, 5.25 / (x - 4), 1e-12);
     EXPECT_EQ(contact->normal[2], 0);
   }
   EXPECT_FALSE(Wedge(environment.snapshot(), 1.75, 0.25).body.move(0, {9.25, 11, 1})) << "touches it";

@@ -57,7 +57,7 @@ TEST(FlatFaces, WhatAFaceRestsOnDoesNotPassAnEdgeToAFaceOnTheOtherSide) {
       const auto contact = faces.move(0, {18, 11, 1});
       EXPECT_EQ(contact.has_value(), neighbour == other);
       if (contact) {
-        EXPECT_EQ(contact->rounded_time(), 0);
+        EXPECT_EQ(contact->time, 0);
         EXPECT_EQ(contact->body, Body_feature::face);
         EXPECT_EQ(contact->feature, 0u) << "the face that moves in the plane";
       }

@@ -214,7 +214,7 @@ void move_in_both(std::uint64_t number, Merged_seen& seen) {
     if (!one) at[v] = target;
     ++(one ? seen.blocked : seen.free);
     if (one) {
-      EXPECT_EQ(one->time, other->time) << "move " << k;
+      EXPECT_EQ(one->exact_time(), other->exact_time()) << "move " << k;
     }
   }
 }

@@ -88,7 +88,7 @@ TEST(PinchedBodies, WallsAtTheWayDoNotComeBetweenAFaceAndAnEdge) {
       EXPECT_EQ(contact.has_value(), !are_linked(face, edge, has_wall));
       ++(contact ? blocked : free);
       if (!contact) continue;
-      EXPECT_EQ(contact->rounded_time(), 1.0 / 3);
+      EXPECT_EQ(contact->time, 1.0 / 3);
       EXPECT_EQ(contact->point, at(is_back ? 8 : 7, 0, 0));
       EXPECT_EQ(contact->vertex, 0u);
     }
@@ -137,7 +137,7 @@ TEST(PinchedBodies, ABareEdgePassesWithTheFaceUnlessItIsThereBefore) {
     const auto contact = body.move(0, target);
     EXPECT_EQ(contact.has_value(), edge.is_at_piece);
     if (contact) {
-      EXPECT_EQ(contact->rounded_time(), 1.0 / 3);
+      EXPECT_EQ(contact->time, 1.0 / 3);
       EXPECT_EQ(contact->point, at(7, 0, 0));
     }
     Moving alone(room.snapshot(), {start, edge.landed_from}, {}, {{0, 1}});

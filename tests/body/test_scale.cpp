@@ -67,7 +67,7 @@ struct Seen {
 
 template <int D>
 void expect_scaled(const Contact<D>& a, const Contact<D>& b, int exponent) {
-  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.exact_time(), b.exact_time());
   EXPECT_EQ(scaled(a.point, exponent), b.point);
   EXPECT_EQ(a.normal, b.normal);
   EXPECT_EQ(a.kind, b.kind);
@@ -139,7 +139,7 @@ void move_at_all_scales(std::vector<std::unique_ptr<Copy<D>>>& copies, oracle::M
     const Contact<D>& c = one.report.contacts[i];
     seen.by_edge += c.body == Body_feature::edge;
     seen.by_face += c.body == Body_feature::face;
-    seen.at_once += c.time == Exact_time();
+    seen.at_once += c.exact_time() == Exact_time();
     seen.slides += i > 0 && one.report.contacts[i - 1].vertex == c.vertex;
   }
 }
@@ -232,7 +232,7 @@ void expect_flights_scale() {
         EXPECT_EQ(after, scaled(speed, copy->exponent));
         ASSERT_EQ(met.size(), first.size());
         for (std::size_t i = 0; i < met.size(); ++i) {
-          EXPECT_EQ(met[i].time, first[i].time);
+          EXPECT_EQ(met[i].exact_time(), first[i].exact_time());
           EXPECT_EQ(met[i].normal, first[i].normal);
           EXPECT_EQ(met[i].facet, first[i].facet);
         }

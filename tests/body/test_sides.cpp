@@ -107,7 +107,7 @@ class Sides_trial {
       const Particle<D>& q = body.particles()[u == v ? w : u];
       const Chain chain = u == v ? body.chain(e) : reversed(snapshot_, body.chain(e));
       const auto contact = sweep_edge_along(snapshot_, path, q, chain, {}, counts).contact;
-      if (contact && (!first || contact->time < first->time)) first = contact;
+      if (contact && (!first || contact->exact_time() < first->exact_time())) first = contact;
     }
     return first;
   }
@@ -127,7 +127,7 @@ class Sides_trial {
     const auto contact = body.move_vertex(v, target, {}, counts_);
     ASSERT_EQ(!contact, truth.is_free()) << text.str();
     if (contact) {
-      ASSERT_TRUE(truth.is_time(contact->rounded_time())) << text.str();
+      ASSERT_TRUE(truth.is_time(contact->time)) << text.str();
     }
     ASSERT_NO_THROW(body.validate()) << text.str();
     ++seen_.moves;
@@ -136,7 +136,7 @@ class Sides_trial {
     seen_.several_ways += truth.ways > 1;
     seen_.some_free += truth.is_free() && truth.free_ways < truth.ways;
     seen_.rescued += !contact && preferred;
-    seen_.later += contact && preferred && preferred->time < contact->time;
+    seen_.later += contact && preferred && preferred->exact_time() < contact->exact_time();
   }
 
   Sides_seen& seen_;

@@ -33,7 +33,7 @@ template <int D>
 Rational contact_coordinate(const Point<D>& from, const Point<D>& target, const Contact<D>& contact,
                             std::size_t k) {
   const Rational a(from[k]);
-  return a + to_rational(contact.time) * (Rational(target[k]) - a);
+  return a + to_rational(contact.exact_time()) * (Rational(target[k]) - a);
 }
 
 /// True if each coordinate of x is that of the exact contact point, rounded down or up.
@@ -112,15 +112,15 @@ TEST(VerifiedStop, GoesBackOnTheWayWhereNothingNearTheContactIsFree) {
   Walk_counts counts;
   const Point<2> target{3, 0.5};
   Contact<2> contact = contact_of(snapshot, particle, target, counts);
-  EXPECT_EQ(contact.rounded_time(), 0.5);
-  contact.time = Exact_time(0.5 + 0x1p-30);  // behind the wall, and the normal leads further away
+  EXPECT_EQ(contact.time, 0.5);
+  contact.set_time(Exact_time(0.5 + 0x1p-30));  // behind the wall, and the normal leads further away
   contact.normal = {1, 0};
   EXPECT_TRUE(stop_at_contact(snapshot, particle, target, contact, counts));
   EXPECT_EQ(particle.position, (Point<2>{1 + 2 * ((0.5 + 0x1p-30) * (1 - 0x1p-20)), 0.5}));
   // Where it stands on the wall already, it stays.
   particle = particle_at<2>(snapshot, {2, 0.5});
   contact = contact_of(snapshot, particle, target, counts);
-  EXPECT_EQ(contact.time, Exact_time());
+  EXPECT_EQ(contact.exact_time(), Exact_time());
   EXPECT_FALSE(stop_at_contact(snapshot, particle, target, contact, counts));
   EXPECT_EQ(particle.position, (Point<2>{2, 0.5}));
 }
@@ -134,7 +134,7 @@ TEST(Advance, ReflectsWithRestitutionAndFriction) {
     Walk_counts counts;
     const auto v = advance(snapshot, particle, Vector<2>{2, 0.5}, {restitution, friction}, met, counts);
     EXPECT_EQ(met.size(), 1u);
-    EXPECT_EQ(met.at(0).time, Exact_time(0.5));
+    EXPECT_EQ(met.at(0).exact_time(), Exact_time(0.5));
     EXPECT_EQ(met.at(0).normal, (Vector<2>{-1, 0}));
     return std::pair(particle.position, v);
   };

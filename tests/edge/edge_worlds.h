@@ -77,7 +77,7 @@ struct Moved_end {
   Particle<D> from, to;
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
-  std::optional<Wall_contact<D>> contact;  ///< of the end itself
+  std::optional<Contact<D>> contact;  ///< of the end itself
 
   Vertex_path<D> path() const { return {from, to, visited, crossed, contact.has_value()}; }
 };

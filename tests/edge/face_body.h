@@ -18,8 +18,8 @@ class Face_body {
  public:
   /// What came of a move. It is made if nothing is in its way.
   struct Outcome {
-    std::optional<Wall_contact<3>> vertex;  ///< of p
-    std::optional<Contact<3>> edge;         ///< of an edge, if p is free
+    std::optional<Contact<3>> vertex;  ///< of p
+    std::optional<Contact<3>> edge;    ///< of an edge, if p is free
     Face_result face;
     bool is_made() const { return !vertex && !edge && !face.contact; }
     bool is_face_only() const { return !vertex && !edge && face.contact; }

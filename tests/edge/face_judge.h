@@ -100,9 +100,9 @@ class Judge {
       const double end = outcome.vertex->time;
       seen_.before_blocked += contact.has_value();
       if (contact) {
-        EXPECT_LE(contact->rounded_time(), end + rounding);
+        EXPECT_LE(contact->time, end + rounding);
         if (!may_be_at_once) {
-          EXPECT_TRUE(hit && text(*hit) == text(to_rational(contact->time))) << name_;
+          EXPECT_TRUE(hit && text(*hit) == text(to_rational(contact->exact_time()))) << name_;
         }
       } else if (hit) {
         EXPECT_GE(static_cast<double>(*hit), end - rounding) << name_ << ": missed before its end";
@@ -111,7 +111,7 @@ class Judge {
     }
     ++seen_.sweeps;
     seen_.hits += hit.has_value();
-    const bool is_unjudged = contact && may_be_at_once && contact->time == Exact_time();
+    const bool is_unjudged = contact && may_be_at_once && contact->exact_time() == Exact_time();
     seen_.unjudged += is_unjudged && !(hit && *hit == 0);
     if (hit && !contact) {
       ++seen_.misses;
@@ -119,20 +119,20 @@ class Judge {
     }
     if (!hit && contact && !is_unjudged) {
       ++seen_.false_blocks;
-      ADD_FAILURE() << name_ << ": false block at " << to_rational(contact->time);
+      ADD_FAILURE() << name_ << ": false block at " << to_rational(contact->exact_time());
     }
     if (!hit || !contact) return;
-    if (!is_unjudged && text(*hit) != text(to_rational(contact->time))) {
+    if (!is_unjudged && text(*hit) != text(to_rational(contact->exact_time()))) {
       ++seen_.wrong_times;
-      ADD_FAILURE() << name_ << ": at " << to_rational(contact->time) << ", not " << *hit;
+      ADD_FAILURE() << name_ << ": at " << to_rational(contact->exact_time()) << ", not " << *hit;
     }
-    EXPECT_LE(Rational(contact->rounded_time()), to_rational(contact->time));
+    EXPECT_LE(Rational(contact->time), to_rational(contact->exact_time()));
     EXPECT_NEAR(length(contact->normal), 1, 1e-14);
     EXPECT_LE(dot(contact->normal, target - before[k]), 1e-13 * length(target - before[k])) << name_;
     seen_.face_only += outcome.is_face_only();
     seen_.through_vertex += contact->kind == Contact_kind::vertex;
     seen_.inside_hits += contact->body == Body_feature::face;
-    seen_.at_once += contact->time == Exact_time();
+    seen_.at_once += contact->exact_time() == Exact_time();
     if (contact->kind == Contact_kind::vertex) {
       const auto points = polygon(snapshot_, contact->facet);
       EXPECT_NE(std::find(points.begin(), points.end(), contact->point), points.end());

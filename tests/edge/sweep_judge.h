@@ -81,8 +81,7 @@ Sweep_fault fault_of(const oracle::Chain_oracle<D>& oracle, const oracle::Edge_m
     if (outcomes.may_be_free()) return Sweep_fault::false_block;
     oracle::Outcomes furthest;
     furthest.blocks.push_back(outcomes.blocks.back());
-    return furthest.may_be_blocked_at(result.contact->rounded_time()) ? Sweep_fault::none
-                                                                      : Sweep_fault::wrong_time;
+    return furthest.may_be_blocked_at(result.contact->time) ? Sweep_fault::none : Sweep_fault::wrong_time;
   }
   if (!outcomes.may_be_free()) return Sweep_fault::false_free;
   return oracle.is_end(motion, outcomes, soup_chain(oracle.soup(), snapshot, result.chain))

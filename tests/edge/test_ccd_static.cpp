@@ -34,7 +34,7 @@ void expect_contact(const Snapshot<3>& snapshot, const std::optional<Contact<3>>
   const Half_facet membrane = Snapshot<3>::half_facet(snapshot.cell(0), 0);
   EXPECT_TRUE(contact->facet == membrane || contact->facet == snapshot.opposite(membrane));
   std::ostringstream time;
-  time << to_rational(contact->time);
+  time << to_rational(contact->exact_time());
   EXPECT_EQ(boost::multiprecision::cpp_rational(time.str()), *expected.later);
 }
 
@@ -58,7 +58,7 @@ TEST(CcdStatic, VertexAndFace) {
     expect_contact(environment.snapshot(), contact, expected);
     collisions += row.labels[0];
     found += contact.has_value();
-    at_end += contact && contact->rounded_time() == 1;
+    at_end += contact && contact->time == 1;
   }
   std::cout << rows.size() << " vertex/face queries: " << collisions << " collide, " << found << " found, "
             << at_end << " of them touched at the end of the motion\n";

@@ -291,7 +291,7 @@ TEST(ChainOracle, BrokenSweepsAreCaught) {
   };
   auto wrong = blocked.result;
   for (const double toward : {0.0, 1.0}) {
-    wrong.contact->time = Exact_time(std::nextafter(0.5, toward));
+    wrong.contact->set_time(Exact_time(std::nextafter(0.5, toward)));
     EXPECT_EQ(fault(scene, blocked, wrong), Sweep_fault::wrong_time);
   }
   wrong = {{}, scene.chain({4, 0})};

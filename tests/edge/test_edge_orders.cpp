@@ -147,7 +147,7 @@ class Edge_in_orders {
     if (!first.contact)
       return are_equal(first.p, first.chain, k, other.p, other.chain) ? Differs::nowhere : Differs::chain;
     const Contact<D>&a = *first.contact, &b = *other.contact;
-    if (a.time != b.time) return Differs::time;
+    if (a.exact_time() != b.exact_time()) return Differs::time;
     if (a.body != b.body) return Differs::body;
     if (a.kind != b.kind) return Differs::kind;
     if (oracle::feature_of(worlds_[0].snapshot, a) != oracle::feature_of(worlds_[k].snapshot, b))

@@ -124,7 +124,7 @@ class Mover {
     options.cells = in.flag() ? Search_cells::traversed : Search_cells::flooded;
     const Sweep_result<D> result = sweep_edge(snapshot_, p, to, q, edge.chain, options, counts);
     if (result.contact)
-      demand(Exact_time() <= result.contact->time && result.contact->time <= Exact_time(1),
+      demand(Exact_time() <= result.contact->exact_time() && result.contact->exact_time() <= Exact_time(1),
              "a contact has no time in [0,1]");
     else
       demand(result.p.position == to, "an edge that is free is not where it went");

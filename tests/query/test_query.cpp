@@ -44,7 +44,7 @@ TEST_F(QueryAnswers, AStartOnAMembraneBelongsToTheSideOnWhichTheMotionGetsFurthe
   }
   const Answer<2> beyond = move({1, 0.5}, {3, 0.5});
   ASSERT_EQ(beyond.status, Motion_status::contact);
-  EXPECT_EQ(beyond.contact->rounded_time(), 0.5);
+  EXPECT_EQ(beyond.contact->time, 0.5);
   EXPECT_EQ(move({0.5, 0.5}, {1.5, 0.5}).status, Motion_status::contact);
 }
 
@@ -72,7 +72,7 @@ TEST_F(QueryAnswers, EdgesAreLinkedOnOneSideOrOutside) {
   EXPECT_EQ(sweep({{0.5, 0.5}, {0.5, 0.75}, {1.5, 0.5}}).status, Motion_status::outside);
   const Answer<2> blocked = sweep({{1, 0.25}, {3, 0.25}, {1, 0.75}});
   ASSERT_EQ(blocked.status, Motion_status::contact);
-  EXPECT_EQ(blocked.contact->rounded_time(), 0.5);
+  EXPECT_EQ(blocked.contact->time, 0.5);
   EXPECT_EQ(blocked.contact->body, Body_feature::vertex);
 }
 

@@ -64,7 +64,7 @@ class Query_trial {
     const Answer<D> answer = answer_move(snapshot_, locator_, a, b, {}, counts_);
     ASSERT_EQ(answer.status == Motion_status::free, is_free);
     if (answer.contact) {
-      ASSERT_TRUE(oracle::is_within_4_ulp(answer.contact->rounded_time(), trace.events[latest]));
+      ASSERT_TRUE(oracle::is_within_4_ulp(answer.contact->time, trace.events[latest]));
     }
     ++seen_.moves;
     seen_.moves_blocked += !is_free;
@@ -83,7 +83,7 @@ class Query_trial {
     const auto expected = truth->is_free() ? Motion_status::free : Motion_status::contact;
     ASSERT_EQ(answer.status, expected) << "ways " << truth->ways << ", free " << truth->free_ways;
     if (answer.contact) {
-      ASSERT_TRUE(truth->is_time(answer.contact->rounded_time())) << answer.contact->rounded_time();
+      ASSERT_TRUE(truth->is_time(answer.contact->time)) << answer.contact->time;
     }
     ++(truth->is_free() ? seen_.free : seen_.blocked);
     seen_.several += truth->ways > 1;

@@ -63,7 +63,7 @@ class Fate_judge {
     }
     tally.undecided += result.end == Move_end::touch;
     if (result.end != Move_end::contact) return;
-    const Fraction time = to_fraction(to_rational(result.hit->time));
+    const Fraction time = to_fraction(to_rational(result.hit->exact_time()));
     if (first && time == *first) return;
     if (has_choice || result.hit->resident.feature == Body_feature::face)
       ++tally.choices;

@@ -121,7 +121,7 @@ class Star_scene {
   void expect_hit(const Point<D>& target, int numerator, int denominator, std::uint32_t vertex = 0) {
     const Vertex_result<D> result = move(target, vertex);
     ASSERT_EQ(result.end, Move_end::contact);
-    EXPECT_EQ(cellwalk::to_fraction(result.hit->time),
+    EXPECT_EQ(cellwalk::to_fraction(result.hit->exact_time()),
               cellwalk::Fraction(Ring(numerator), Ring(denominator)));
   }
 

@@ -57,7 +57,7 @@ TEST(LatestTime, IsThatOfTheSideThatGoesOn) {
       const auto part = reshaping.test_move(3, from + (k / 16.0) * (target - from));
       EXPECT_EQ(part.end, k < 16 * 8 / 11.0 ? Move_end::reached : Move_end::contact) << k;
       if (part.hit) {
-        EXPECT_DOUBLE_EQ(part.hit->time.rounded(), 16 * 8 / 11.0 / k);
+        EXPECT_DOUBLE_EQ(part.hit->time, 16 * 8 / 11.0 / k);
       }
     }
     const auto result = reshaping.move(3, target);
@@ -87,7 +87,7 @@ void ask_parts(World& world, Reshaping<D>& reshaping, Latest_tally& tally) {
   tally.contacts += whole.end == Move_end::contact;
   tally.touches += whole.end == Move_end::touch;
   if (whole.end != Move_end::contact) return;
-  const double time = whole.hit->time.rounded();
+  const double time = whole.hit->time;
   tally.late += time > 0 && time < 1;
   for (int k = 1; k < 8; ++k) {
     const double share = k / 8.0;

@@ -123,8 +123,8 @@ void ask_both(std::uint64_t first, std::uint64_t worlds) {
       const auto a = here.test_move(v, target), b = there.test_move(twins.point_there(v), target);
       ++asked;
       reached += a.end == Move_end::reached;
-      const bool is_same =
-          a.end == b.end && a.hit.has_value() == b.hit.has_value() && (!a.hit || a.hit->time == b.hit->time);
+      const bool is_same = a.end == b.end && a.hit.has_value() == b.hit.has_value() &&
+                           (!a.hit || a.hit->exact_time() == b.hit->exact_time());
       if (!is_same && ++different < 10) ADD_FAILURE() << "in world " << k << " at point " << v;
     }
   }

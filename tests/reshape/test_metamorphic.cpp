@@ -93,7 +93,8 @@ TEST(Metamorphic, ThereAndBackChangesNothing) {
 
 template <int D>
 bool is_same(const Vertex_result<D>& x, const Vertex_result<D>& y) {
-  return x.end == y.end && x.hit.has_value() == y.hit.has_value() && (!x.hit || x.hit->time == y.hit->time);
+  return x.end == y.end && x.hit.has_value() == y.hit.has_value() &&
+         (!x.hit || x.hit->exact_time() == y.hit->exact_time());
 }
 
 /// Vertices without a common cell move in both orders.

@@ -110,7 +110,8 @@ TEST(ReplacementSoak, AtTheLevelOfAMembrane) {
 
 template <int D>
 bool is_same(const Vertex_result<D>& x, const Vertex_result<D>& y) {
-  return x.end == y.end && x.hit.has_value() == y.hit.has_value() && (!x.hit || x.hit->time == y.hit->time);
+  return x.end == y.end && x.hit.has_value() == y.hit.has_value() &&
+         (!x.hit || x.hit->exact_time() == y.hit->exact_time());
 }
 
 /// What a replacement does to other vertices of cells: nothing but that they may be in the way of each other.

@@ -55,7 +55,7 @@ TEST(Reshaping, AWallMeetsAParticleAtAnExactTime) {
   EXPECT_EQ(result.end, Move_end::contact);
   EXPECT_EQ(result.position, (Point<3>{2, 2, 2}));
   ASSERT_TRUE(result.hit.has_value());
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(2), Ring(3)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(2), Ring(3)));
   EXPECT_EQ(result.hit->kind, Contact_kind::facet);
   EXPECT_EQ(result.hit->point, (Point<3>{2.25, 2.125, 2.25}));
   EXPECT_TRUE(result.hit->resident.is_particle);
@@ -105,7 +105,7 @@ TEST(Reshaping, AParticleInAWallStaysOnItsSide) {
     EXPECT_EQ(particles[0].dimension, 2);
     const auto through = reshaping.move(room.vertex, {2, 2, 2 + 0.125 * side});
     ASSERT_EQ(through.end, Move_end::contact) << "the particle lies in a facet of the swept tetrahedron";
-    EXPECT_EQ(through.hit->time, Exact_time());
+    EXPECT_EQ(through.hit->exact_time(), Exact_time());
     EXPECT_EQ(through.hit->kind, Contact_kind::facet);
     EXPECT_EQ(reshaping.move(room.vertex, {2.125, 2, 2}).end, Move_end::reached)
         << "in its own plane, while the particle stays in its cell";
@@ -147,7 +147,7 @@ TEST(Reshaping, AVertexMeetsAParticleExactly) {
   Reshaping<3> reshaping(room.environment, {{}, {particles}}, hold);
   const auto result = reshaping.move(room.vertex, {2, 2, 2.5});
   ASSERT_EQ(result.end, Move_end::contact) << "the vertex would go through the particle";
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(1), Ring(2)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(1), Ring(2)));
   EXPECT_EQ(result.hit->kind, Contact_kind::vertex);
   EXPECT_EQ(result.hit->weights, (std::array{1.0, 0.0, 0.0}));
   EXPECT_EQ(result.hit->point, (Point<3>{2, 2, 2.25}));
@@ -172,7 +172,7 @@ TEST(Reshaping, AnEdgeIsMetByAnEdge) {
   const auto result = reshaping.move(room.vertex, {2, 2, 2.75});
   ASSERT_EQ(result.end, Move_end::contact);
   // The edge from the vertex to (3, 2, 2) passes below it, half as high as the vertex.
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(2), Ring(3)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(2), Ring(3)));
   EXPECT_EQ(result.hit->kind, Contact_kind::edge);
   EXPECT_EQ(result.hit->resident.feature, Body_feature::edge);
   EXPECT_FALSE(result.hit->resident.is_particle);
@@ -191,7 +191,7 @@ TEST(Reshaping, AFaceIsMetByTheVertexThatMoves) {
   Reshaping<3> reshaping(room.environment, {{&body}, {}}, hold);
   const auto result = reshaping.move(room.vertex, {2, 2, 2.5});
   ASSERT_EQ(result.end, Move_end::contact);
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(1), Ring(2)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(1), Ring(2)));
   EXPECT_EQ(result.hit->kind, Contact_kind::vertex);
   EXPECT_EQ(result.hit->resident.feature, Body_feature::face);
   EXPECT_EQ(result.hit->normal, (Vector<3>{0, 0, 1}));
@@ -326,7 +326,7 @@ TEST(Reshaping, TheSameInThePlane) {
   const auto result = reshaping.move(vertex, {2, 2.75});
   ASSERT_EQ(result.end, Move_end::contact);
   // The edge is at 2.35 above the vertex, its end at the place of the particle.
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(7), Ring(15)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(7), Ring(15)));
   EXPECT_EQ(result.hit->kind, Contact_kind::vertex);
   EXPECT_EQ(result.hit->resident.feature, Body_feature::edge);
   EXPECT_EQ(reshaping.move(vertex, {2, 2.25}).end, Move_end::reached);

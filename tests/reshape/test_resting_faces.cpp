@@ -68,7 +68,7 @@ TEST(RestingFaces, AMembraneThatLandsOnAFaceLeavesItOnItsSide) {
     EXPECT_EQ(tent.move(body, {3, 3, 3}).end, Move_end::reached) << "it lands";
     const auto through = tent.move(body, {3, 3, 3 - 0.5 * side});
     ASSERT_EQ(through.end, Move_end::contact) << "it must not pass";
-    EXPECT_EQ(through.hit->time, Exact_time());
+    EXPECT_EQ(through.hit->exact_time(), Exact_time());
     EXPECT_EQ(through.hit->resident.feature, Body_feature::face);
     EXPECT_EQ(tent.move(body, {3, 3, 3 + 0.5 * side}).end, Move_end::reached) << "back where it came from";
     EXPECT_EQ(tent.move(body, {3, 3, 3 - 0.5 * side}).end, Move_end::contact) << "now it comes from there";
@@ -183,7 +183,7 @@ TEST(RestingFaces, ASlitThatLandsOnAFaceLeavesItOnItsSide) {
       EXPECT_EQ(reshaping.move(vertex, {0, 0, 0}).end, Move_end::reached) << "it lands";
       const auto through = reshaping.move(vertex, {0, -side, 0});
       ASSERT_EQ(through.end, Move_end::contact) << "it must not pass";
-      EXPECT_EQ(through.hit->time, Exact_time());
+      EXPECT_EQ(through.hit->exact_time(), Exact_time());
       EXPECT_EQ(reshaping.move(vertex, {0, side, 0}).end, Move_end::reached) << "back where it came from";
     }
     reshaping.finish();

@@ -42,7 +42,7 @@ TEST(RimInBetween, ABodyOnBothSidesIsHit) {
     for (const double height : {4., -4.}) {
       const auto result = pass({height, -height}, order);
       ASSERT_EQ(result.end, Move_end::contact);
-      EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(3), Ring(10)));
+      EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(3), Ring(10)));
     }
 }
 

@@ -65,7 +65,7 @@ const std::vector<Point<3>> above{{1.25, 1.25, 2.25}, {3.25, 1.25, 2.25}, {1.25,
 void expect_time(const Vertex_result<3>& result, int numerator, int denominator) {
   ASSERT_EQ(result.end, Move_end::contact);
   ASSERT_TRUE(result.hit.has_value());
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(numerator), Ring(denominator)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(numerator), Ring(denominator)));
   EXPECT_EQ(result.hit->kind, Contact_kind::vertex);
   EXPECT_EQ(result.hit->weights, (std::array<double, 3>{1, 0, 0}));
 }

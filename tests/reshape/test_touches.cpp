@@ -72,7 +72,7 @@ struct Scene {
 template <int D>
 void expect_block(const Vertex_result<D>& result, int numerator, int denominator) {
   ASSERT_EQ(result.end, Move_end::contact);
-  EXPECT_EQ(to_fraction(result.hit->time), Fraction(Ring(numerator), Ring(denominator)));
+  EXPECT_EQ(to_fraction(result.hit->exact_time()), Fraction(Ring(numerator), Ring(denominator)));
 }
 
 TEST(Touches, AVertexInThePlaceOfTheOneThatMoves) {

@@ -88,7 +88,8 @@ class Wall_judge {
       case Move_end::contact:
         ++tally_.contacts;
         tally_.false_blocks += !expected.is_met;
-        tally_.wrong_times += expected.first && to_fraction(to_rational(result.hit->time)) > *expected.first;
+        tally_.wrong_times +=
+            expected.first && to_fraction(to_rational(result.hit->exact_time())) > *expected.first;
         break;
       case Move_end::touch:
         ++tally_.touches;

@@ -177,11 +177,11 @@ TEST(Replay, BodiesReportContactsOfTheSameMoves) {
     ASSERT_TRUE(first);
     if ((answer & trace_segment_bit) != 0 && contact.body == Body_feature::edge) {
       // It met the wall before, in a place where the edge does not pass when the vertex is stopped.
-      EXPECT_LE(contact.rounded_time(), *first);
-      EXPECT_GE(contact.rounded_time(), *of_any_edge - 0x1p-50);
+      EXPECT_LE(contact.time, *first);
+      EXPECT_GE(contact.time, *of_any_edge - 0x1p-50);
       ++of_edges_before;
     } else {
-      EXPECT_NEAR(contact.rounded_time(), *first, 0x1p-50);
+      EXPECT_NEAR(contact.time, *first, 0x1p-50);
     }
     EXPECT_NEAR(length(contact.normal), 1, 0x1p-40);
     ++(contact.body == Body_feature::vertex ? of_vertices : of_edges);
@@ -218,7 +218,7 @@ TEST(Replay, NamesWalls) {
           double off = 1;
           for (const Point<3>& end : q) {
             const Point<3>&a = is_vertex ? from : target, &b = is_vertex ? target : end;
-            off = std::min(off, length(c.contact.point - (a + c.contact.rounded_time() * (b - a))));
+            off = std::min(off, length(c.contact.point - (a + c.contact.time * (b - a))));
           }
           EXPECT_LT(off, 1e-12);
           ++(is_vertex ? of_vertices : of_edges);

@@ -123,7 +123,7 @@ TEST(Replay, AVertexThatEndsOnAWallHitsIt) {
       EXPECT_EQ(count_mismatches(trace, replay.answers(), sweep), 0u);
       EXPECT_EQ(replay.bodies()[0].positions()[6], trace.targets[6]);
       ASSERT_EQ(replay.contacts().size(), 1u);
-      EXPECT_EQ(replay.contacts()[0].contact.rounded_time(), 1);
+      EXPECT_EQ(replay.contacts()[0].contact.time, 1);
       EXPECT_EQ(replay.contacts()[0].contact.normal, (Vector<3>{0, -1, 0}));
     }
 }

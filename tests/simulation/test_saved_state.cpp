@@ -90,7 +90,7 @@ void go_on(const Snapshot<D>& snapshot) {
     contacts += world.contacts().size();
     ASSERT_EQ(world.contacts().size(), twin->contacts().size());
     for (std::size_t i = 0; i < world.contacts().size(); ++i)
-      EXPECT_TRUE(world.contacts()[i].contact.time == twin->contacts()[i].contact.time);
+      EXPECT_TRUE(world.contacts()[i].contact.exact_time() == twin->contacts()[i].contact.exact_time());
     ASSERT_TRUE(bytes_of(*twin) == bytes_of(world)) << "step " << step;
     // What is not saved at all would not be seen by that.
     EXPECT_EQ(twin->steps_done(), world.steps_done());

@@ -44,7 +44,7 @@ std::array<std::size_t, 3> run_checked(const Snapshot<D>& snapshot, World<D>& wo
       EXPECT_TRUE(test::lies_in_a_wall(snapshot, c.contact.point, c.contact.normal, 1e-9))
           << "particle " << c.particle << ", step " << i;
       EXPECT_NEAR(length(c.contact.normal), 1, 1e-15);
-      EXPECT_TRUE(Exact_time() <= c.contact.time && c.contact.time <= Exact_time(1));
+      EXPECT_TRUE(Exact_time() <= c.contact.exact_time() && c.contact.exact_time() <= Exact_time(1));
       EXPECT_EQ(c.step, world.steps_done());
       ++kinds[static_cast<std::size_t>(c.contact.kind)];
     }

@@ -56,7 +56,7 @@ void run_checked(World<D>& world, const Point<D>& size, const std::vector<Point<
     for (const Run_contact<D>& c : world.contacts()) {
       EXPECT_EQ(c.step, world.steps_done());
       EXPECT_NEAR(length(c.contact.normal), 1, 1e-14);
-      EXPECT_TRUE(Exact_time() <= c.contact.time && c.contact.time <= Exact_time(1));
+      EXPECT_TRUE(Exact_time() <= c.contact.exact_time() && c.contact.exact_time() <= Exact_time(1));
       if (!c.body) {
         ++seen.of_particles;
         continue;
@@ -144,7 +144,7 @@ TEST(WorldBodies, AnyNumberOfThreadsGivesTheSameBits) {
       world.step();
       h = hash_of(world, h);
       for (const auto& c : world.contacts()) {
-        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.contact.rounded_time()) ^ *c.body);
+        h = scramble(h ^ std::bit_cast<std::uint64_t>(c.contact.time) ^ *c.body);
         ++contacts;
       }
     }
@@ -347,7 +347,7 @@ TEST(WorldBodies, NoStepIsSoLongOrMotionSoFastThatResultsAreNotFinite) {
             }
             for (const auto& met : world.contacts())
               EXPECT_TRUE(is_finite(met.contact.point) && is_finite(met.contact.normal) &&
-                          std::isfinite(met.contact.rounded_time()));
+                          std::isfinite(met.contact.time));
           }
   EXPECT_EQ(refused + made, 160);
   EXPECT_GE(refused, 40);

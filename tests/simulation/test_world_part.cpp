@@ -42,7 +42,7 @@ void expect_same_contacts(const World<D>& world, const World<D>& parts) {
     EXPECT_EQ(a.body, b.body);
     EXPECT_EQ(a.body ? 0 : a.particle, b.body ? 0 : b.particle);
     EXPECT_EQ(a.cell, b.cell);
-    EXPECT_EQ(a.contact.rounded_time(), b.contact.rounded_time());
+    EXPECT_EQ(a.contact.time, b.contact.time);
     EXPECT_EQ(a.contact.point, b.contact.point);
     EXPECT_EQ(a.contact.normal, b.contact.normal);
     EXPECT_EQ(a.contact.kind, b.contact.kind);

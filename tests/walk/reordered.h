@@ -104,7 +104,7 @@ class Reordered_world {
 };
 
 /// Where a contact is on the environment, in coordinates: a vertex, the two ends of an edge, or all corners
-/// of a facet. Any struct that names it as Wall_contact does.
+/// of a facet. Any struct that names it as Contact does.
 template <int D, class Met>
 std::vector<Point<D>> feature_of(const Snapshot<D>& snapshot, const Met& contact) {
   const std::vector<std::uint32_t> loop = snapshot.loop(contact.facet);

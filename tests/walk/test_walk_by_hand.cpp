@@ -77,7 +77,7 @@ class Scene {
     EXPECT_EQ(back.cells, Cells(cells.rbegin(), cells.rend()));
   }
 
-  Wall_contact<D> contact(std::uint32_t cell, const Point<D>& from, const Point<D>& to) const {
+  Contact<D> contact(std::uint32_t cell, const Point<D>& from, const Point<D>& to) const {
     const Way<D> way = walk(cell, from, to);
     EXPECT_EQ(way.result.status, Walk_status::contact);
     return way.result.contact.value();
@@ -104,7 +104,7 @@ TEST(WalkByHand, ReportsTheWallItMeets) {
   set_wall(soup, 0, 1);
   set_wall(soup, 0, 2);
   const Scene<3> scene(soup);
-  const Wall_contact<3> facet = scene.contact(0, {0.5, 0.5, 0.5}, {1.5, 0.75, 0.5});
+  const Contact<3> facet = scene.contact(0, {0.5, 0.5, 0.5}, {1.5, 0.75, 0.5});
   EXPECT_EQ(facet.time, 0.5);
   EXPECT_EQ(facet.point, (Point<3>{1, 0.625, 0.5}));
   EXPECT_EQ(facet.normal, (Vector<3>{-1, 0, 0}));
@@ -112,15 +112,15 @@ TEST(WalkByHand, ReportsTheWallItMeets) {
   EXPECT_EQ(scene.snapshot().index(facet.cell), 0u);
   EXPECT_TRUE(scene.snapshot().is_impassable(facet.facet));
   EXPECT_EQ(scene.snapshot().index(scene.snapshot().neighbour(facet.facet)), 1u);
-  const Wall_contact<3> edge = scene.contact(0, {0.5, 0.5, 0.25}, {1.5, 1.5, 0.75});
+  const Contact<3> edge = scene.contact(0, {0.5, 0.5, 0.25}, {1.5, 1.5, 0.75});
   EXPECT_EQ(edge.time, 0.5);
   EXPECT_EQ(edge.kind, Contact_kind::edge);
   set_wall(soup, 0, 4);
-  const Wall_contact<3> vertex = Scene<3>(soup).contact(0, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
+  const Contact<3> vertex = Scene<3>(soup).contact(0, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
   EXPECT_EQ(vertex.time, 0.5);
   EXPECT_EQ(vertex.point, (Point<3>{1, 1, 1}));
   EXPECT_EQ(vertex.kind, Contact_kind::vertex);
-  const Wall_contact<3> boundary = Scene<3>(soup).contact(7, {1.5, 1.5, 1.5}, {1.5, 3.5, 1.5});
+  const Contact<3> boundary = Scene<3>(soup).contact(7, {1.5, 1.5, 1.5}, {1.5, 3.5, 1.5});
   EXPECT_EQ(boundary.time, 0.25);
   EXPECT_EQ(boundary.normal, (Vector<3>{0, -1, 0}));
 }
@@ -162,7 +162,7 @@ TEST(WalkByHand, MeetsPinchedVerticesAsWalls) {
     soup.end_cell();
   }
   const Scene<2> scene(soup);
-  const Wall_contact<2> contact = scene.contact(0, {0.5, 0.5}, {1.5, 1.5});
+  const Contact<2> contact = scene.contact(0, {0.5, 0.5}, {1.5, 1.5});
   EXPECT_EQ(contact.time, 0.5);
   EXPECT_EQ(contact.kind, Contact_kind::vertex);
   const Location<2> pinch = scene.locate({1, 1});
@@ -195,7 +195,7 @@ TEST(WalkByHand, KeepsExactInBadPositions) {
   EXPECT_EQ(scene.walk(13, {1.5, 1.5, 1.5}, {below, 1.5, 1.5}).cells, (Cells{13, 12}));
   EXPECT_EQ(scene.walk(13, {above, above, above}, {below, below, below}).cells, (Cells{13, 0}));
   EXPECT_EQ(scene.walk(0, {tiny, 0.5, 0.5}, {0, 0.5, 0.5}).result.dimension, 2);
-  const Wall_contact<3> far = scene.contact(0, {0, 0.5, 0.5}, {-1e300, 0.5, 0.5});
+  const Contact<3> far = scene.contact(0, {0, 0.5, 0.5}, {-1e300, 0.5, 0.5});
   EXPECT_EQ(far.time, 0);
   EXPECT_NEAR(scene.contact(13, {1.5, 1.5, 1.5}, {1e6, 1.5, 1.5}).time, 1.5 / (1e6 - 1.5), 1e-21);
 }

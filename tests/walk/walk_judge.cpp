@@ -42,7 +42,7 @@ bool is_right_wall(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const T
 }
 
 template <int D>
-bool is_right_normal(const Snapshot<D>& snapshot, const Case<D>& motion, const Wall_contact<D>& contact) {
+bool is_right_normal(const Snapshot<D>& snapshot, const Case<D>& motion, const Contact<D>& contact) {
   constexpr double rounding = 1e-9;  // generous: normals are rounded, this is not about exactness
   const Vector<D> step = motion.to - motion.from;
   if (std::abs(length(contact.normal) - 1) > rounding) return false;
@@ -56,7 +56,7 @@ bool is_right_normal(const Snapshot<D>& snapshot, const Case<D>& motion, const W
 }
 
 template <int D>
-bool is_right_point(const Case<D>& motion, const Wall_contact<D>& contact) {
+bool is_right_point(const Case<D>& motion, const Contact<D>& contact) {
   for (int i = 0; i < D; ++i) {
     const double expected = motion.from[i] + contact.time * (motion.to[i] - motion.from[i]);
     const double size = std::max(std::abs(motion.from[i]), std::abs(motion.to[i]));

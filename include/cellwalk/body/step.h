@@ -25,7 +25,7 @@ struct Rejected_move {
   std::uint64_t swept_edges = 0;
   /// That wall, if the vertex stays: where it is in the way of the vertex, or of the first of the edges where
   /// the vertex would be. Then time and point are along the edge, from that vertex on. The time is exact
-  /// where a closed wall is touched, else that of a walk, see Wall_contact.
+  /// where a closed wall is touched, else that of a walk, see Contact.
   std::optional<Contact<D>> contact;
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };

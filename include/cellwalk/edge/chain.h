@@ -51,7 +51,7 @@ struct Chain_result {
   Chain chain;
   /// If set, there is no chain: a wall blocks the segment, at contact->time from p to q. The time 1 means
   /// that it leads to q on a different side of the walls there than that of q.
-  std::optional<Wall_contact<D>> contact;
+  std::optional<Contact<D>> contact;
   /// The segment continues along a wall from its rim, and has chains on both sides of it.
   bool has_choice = false;
 };
@@ -101,6 +101,16 @@ void prepend_crossed_facets(const Snapshot<D>& snapshot, Chain& chain, std::span
 template <int D>
 bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, const Point<D>& q,
             Walk_counts& counts);
+
+/// The result of the sweep of an edge.
+template <int D>
+struct Sweep_result {
+  std::optional<Contact<D>> contact;  ///< none: the move is free
+  Chain chain;                        ///< of the edge after the move
+  // Of sweep_edge() only:
+  Particle<D> p{};          ///< after the move, or before it if there is a contact
+  std::uint32_t cells = 0;  ///< number of cells visited by p
+};
 
 }  // namespace cellwalk
 

@@ -5,8 +5,8 @@
 #define CELLWALK_EDGE_FACE_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/walk/contact.h>
 
 #include <boost/container/small_vector.hpp>
 

@@ -5,8 +5,8 @@
 #define CELLWALK_EDGE_SWEEP_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/walk/contact.h>
 
 #include <optional>
 
@@ -119,7 +119,7 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
 /// Cost: some signs for each facet of the last cell, and a rational number.
 template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
-                          const Wall_contact<D>& met, Walk_counts& counts);
+                          const Contact<D>& met, Walk_counts& counts);
 
 /// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed
 /// wall or is blocked.

@@ -29,7 +29,7 @@ class Exact_time {
   /// The greatest double that is not later, so that a reported time is never after the contact.
   double rounded() const { return rounded_; }
   /// The fraction, or null if rounded() is exact.
-  const Exact_fraction* fraction() const { return fraction_.get(); }
+  const std::shared_ptr<const Exact_fraction>& fraction() const { return fraction_; }
 
   friend std::strong_ordering operator<=>(const Exact_time& s, const Exact_time& t);
   friend bool operator==(const Exact_time& s, const Exact_time& t) { return (s <=> t) == 0; }

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_QUERY_ANSWER_H
 #define CELLWALK_QUERY_ANSWER_H
 
-#include <cellwalk/edge/contact.h>
+#include <cellwalk/walk/contact.h>
 
 #include <cstdint>
 #include <optional>

@@ -3,9 +3,9 @@
 #ifndef CELLWALK_RESHAPE_MOVE_H
 #define CELLWALK_RESHAPE_MOVE_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/kernel/counts.h>
 #include <cellwalk/reshape/residents.h>
+#include <cellwalk/walk/contact.h>
 #include <cellwalk/walk/walk.h>
 
 #include <array>
@@ -28,19 +28,15 @@ enum class Move_end : std::uint8_t {
   boundary  ///< the boundary of the environment would run into itself, or into another point
 };
 
-/// The first meeting of a moving wall and a resident that it would pass through.
+/// The first meeting of a moving wall and a resident that it would pass through. Its `time` is the share of
+/// the move of the vertex of the environment that is free; exact, but for faces that another wall touches
+/// before. Its normal leads from the wall to the resident, its facet is the wall seen from that side, of kind
+/// `vertex` is the one that moves, and `vertex` names that.
 template <int D>
-struct Wall_hit {
-  /// The share of the move of the vertex that is free; exact, but for faces that another wall touches before.
-  Exact_time time;
-  Point<D> point{};                         ///< where they meet, rounded
-  Vector<D> normal{};                       ///< unit, from the wall to the resident, rounded
-  Contact_kind kind = Contact_kind::facet;  ///< what of the wall meets it; `vertex` is the one that moves
-  Half_facet facet = Half_facet::none;      ///< the wall, seen from the side of the resident
+struct Wall_hit : Contact<D> {
   /// Weights of the corners of the wall at the point, rounded, of sum 1: first the vertex that moves, then
   /// the others in the order of the loop of the facet.
   std::array<double, static_cast<std::size_t>(D)> weights{};
-  std::uint32_t vertex = 0;  ///< of the environment, which moves
   Resident resident;
   /// Weights of the vertices of the resident's feature at the point, rounded, of sum 1, in their order there;
   /// those that it does not have are 0.

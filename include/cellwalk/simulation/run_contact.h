@@ -3,7 +3,7 @@
 #ifndef CELLWALK_SIMULATION_RUN_CONTACT_H
 #define CELLWALK_SIMULATION_RUN_CONTACT_H
 
-#include <cellwalk/edge/contact.h>
+#include <cellwalk/walk/contact.h>
 
 #include <cstdint>
 #include <optional>

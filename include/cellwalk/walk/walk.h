@@ -5,6 +5,7 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/policies.h>
+#include <cellwalk/walk/contact.h>
 #include <cellwalk/walk/particle.h>
 
 #include <boost/container/small_vector.hpp>
@@ -62,23 +63,6 @@ enum class Walk_status {
   lost      ///< inexact policies only: the walk did not end, or no exit was found
 };
 
-/// The environment feature that blocks a motion.
-enum class Contact_kind : std::uint8_t { vertex, edge, facet };
-
-/// The contact that blocks a walk. Contact is the same for the motion of a body, with its exact time.
-template <int D>
-struct Wall_contact {
-  double time = 0;     ///< parameter of the motion in [0,1]: the greatest double that is not later
-  Point<D> point{};    ///< where the motion is then, rounded
-  Vector<D> normal{};  ///< unit normal of the blocking wall, towards the free side
-  Contact_kind kind = Contact_kind::facet;
-  Half_facet facet = Half_facet::none;  ///< the blocking wall seen from the free side; identifies its dart
-  /// The vertex of the wall at this position of its loop (kind vertex), or the edge from there to the next
-  /// vertex (kind edge).
-  std::uint16_t corner = 0;
-  Cell cell = Cell::none;  ///< the cell in which the motion ends
-};
-
 template <int D>
 struct Walk_result {
   Walk_status status = Walk_status::arrived;
@@ -88,7 +72,7 @@ struct Walk_result {
   std::uint32_t cells = 1;      ///< cells visited
   bool had_choice = false;      ///< it continued along a wall from its rim, with free space on both sides
   bool on_planes = false;       ///< the target lies on the plane of a facet of a cell visited
-  std::optional<Wall_contact<D>> contact;  ///< if status is contact
+  std::optional<Contact<D>> contact;  ///< if status is contact
 };
 
 /// Walks from a particle's position to a target. Touching a wall is no contact, crossing it is. Paper:
@@ -111,8 +95,7 @@ Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 /// (Walk_options::locates_contact); otherwise it changes nothing.
 /// Cost: 0.2 us, more if only exact numbers tell how the time is rounded.
 template <int D>
-void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
-                    Wall_contact<D>& contact);
+void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Contact<D>& contact);
 
 namespace detail {
 

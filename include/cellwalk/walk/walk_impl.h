@@ -139,7 +139,7 @@ class Particle_walk {
       return false;
     }
     result_.status = Walk_status::contact;
-    Wall_contact<D>& contact = result_.contact.emplace();
+    Contact<D>& contact = result_.contact.emplace();
     const Cell_view<D> wall_view = snapshot_.view(snapshot_.cell_of(wall));
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
                    : exit.kind == Exit::vertex ? Contact_kind::vertex

@@ -34,7 +34,7 @@ double time_of(const Vertex_result<D>& result) {
     case Move_end::cell:
       return result.share;
     default:
-      return result.hit ? result.hit->time.rounded() : no_value;
+      return result.hit ? result.hit->time : no_value;
   }
 }
 

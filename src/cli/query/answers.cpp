@@ -43,7 +43,7 @@ void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& 
       time = 1;
       end = fields(rows[row].points[1]);
     } else if (const auto& contact = answer.contact) {
-      time = contact->rounded_time();
+      time = contact->time;
       end = fields(contact->point);
       normal = fields(contact->normal);
       kind = contact_kind_names[static_cast<std::size_t>(contact->kind)];

@@ -90,8 +90,8 @@ std::string title_of(std::size_t row, const Answer<2>& answer, const char* mover
   if (!answer.contact) return fmt::format("row {}: free; {}", row, cells);
   return fmt::format("row {}: contact with {} {} at time {:.4g}; {}", row,
                      answer.contact->kind == Contact_kind::edge ? "an" : "a",
-                     contact_kind_names[static_cast<std::size_t>(answer.contact->kind)],
-                     answer.contact->rounded_time(), cells);
+                     contact_kind_names[static_cast<std::size_t>(answer.contact->kind)], answer.contact->time,
+                     cells);
 }
 
 void add_contact(Query_plot& plot, const Answer<2>& answer) {
@@ -176,7 +176,7 @@ void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Loc
           along.result.contact ? "facets it crosses up to a wall" : "chain of tq: the facets it crosses");
   }
   if (answer.contact && answer.contact->body != Body_feature::vertex)
-    plot.line(p + answer.contact->rounded_time() * (t - p), q, thick, Layer::edges, contact);
+    plot.line(p + answer.contact->time * (t - p), q, thick, Layer::edges, contact);
   add_contact(plot, answer);
   plot.point(p, "p", motion);
   plot.point(t, "t", motion);

@@ -3,10 +3,10 @@
 #ifndef CELLWALK_CLI_QUERY_PICTURE_PLOT_H
 #define CELLWALK_CLI_QUERY_PICTURE_PLOT_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/drawing/figure.h>
 #include <cellwalk/io/atomic_file.h>
+#include <cellwalk/walk/contact.h>
 
 #include <set>
 #include <span>

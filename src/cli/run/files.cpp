@@ -61,10 +61,10 @@ void Run_files<D>::record(const World<D>& world, bool is_last) {
     const double z = D == 3 ? x[D - 1] : nothing, nz = D == 3 ? normal[D - 1] : nothing;
     ++contacts_[kind];
     if (c.body) ++body_contacts_[feature][kind];
-    table_.row(c.step, field(!c.body, c.particle), c.contact.rounded_time(), x[0], x[1], z,
-               contact_kind_names[kind], normal[0], normal[1], nz, c.cell,
-               field(c.body.has_value(), c.body.value_or(0)), field(c.body.has_value(), c.contact.vertex),
-               c.body ? feature_names[feature] : "", field(c.body.has_value(), c.contact.feature));
+    table_.row(c.step, field(!c.body, c.particle), c.contact.time, x[0], x[1], z, contact_kind_names[kind],
+               normal[0], normal[1], nz, c.cell, field(c.body.has_value(), c.body.value_or(0)),
+               field(c.body.has_value(), c.contact.vertex), c.body ? feature_names[feature] : "",
+               field(c.body.has_value(), c.contact.feature));
   }
   if (every_ == 0) return;
   since_frame_.insert(since_frame_.end(), world.contacts().begin(), world.contacts().end());

@@ -200,7 +200,7 @@ void Run_walls<D>::record(std::uint32_t step, const Move_report<D>& report) {
     const std::string number = resident.is_particle ? "" : std::to_string(resident.number);
     const char* const feature =
         resident.is_particle ? "" : feature_names[static_cast<std::size_t>(resident.feature)];
-    table_.row(step, hit.vertex, hit.time.rounded(), x[0], x[1], D == 3 ? x[D - 1] : nothing,
+    table_.row(step, hit.vertex, hit.time, x[0], x[1], D == 3 ? x[D - 1] : nothing,
                contact_kind_names[static_cast<std::size_t>(hit.kind)], n[0], n[1],
                D == 3 ? n[D - 1] : nothing, snapshot.index(snapshot.cell_of(hit.facet)), body, particle,
                feature, number);

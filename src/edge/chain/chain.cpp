@@ -29,11 +29,11 @@ detail::Crossing_proof prove_crossing(const Cell_view<3>& cell, std::size_t i, c
 
 /// The contact of a segment that arrives at q on the wrong side, with a wall at q.
 template <int D>
-Wall_contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& arrival, const Point<D>& q,
-                           Half_facet wall) {
+Contact<D> other_side(const Snapshot<D>& snapshot, const Walk_result<D>& arrival, const Point<D>& q,
+                      Half_facet wall) {
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(wall));
   const std::size_t i = snapshot.facet_of(wall);
-  Wall_contact<D> contact;
+  Contact<D> contact;
   contact.time = 1;
   contact.point = q;
   contact.cell = arrival.cell;

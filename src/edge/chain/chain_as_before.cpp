@@ -83,9 +83,9 @@ struct Along_way : Any_way<D> {
 
 /// Where a chain is blocked: at the first facet that is a wall now, or else at the end.
 template <int D>
-Wall_contact<D> blocked_chain(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
-                              const Particle<D>& q, const Edge_before& before) {
-  Wall_contact<D> contact;
+Contact<D> blocked_chain(const Snapshot<D>& snapshot, const Rational_segment<D>& segment,
+                         const Particle<D>& q, const Edge_before& before) {
+  Contact<D> contact;
   contact.time = 1;
   contact.point = q.position;
   contact.cell = q.cell;

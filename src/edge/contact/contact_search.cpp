@@ -37,7 +37,7 @@ Vector<D> mean_normal(const Snapshot<D>& snapshot, Cell start, std::uint32_t ver
 template <int D>
 Contact<D> bisected(const Snapshot<D>& snapshot, const Vertex_path<D>& path, Contact<D> contact, double time,
                     std::size_t corner) {
-  contact.time = Exact_time(time);
+  contact.set_time(Exact_time(time));
   const Cell_view<D> cell = snapshot.view(snapshot.cell_of(contact.facet));
   const std::uint32_t vertex = cell.point_index(cell.loop(snapshot.facet_of(contact.facet))[corner]);
   const Vector<D> normal = mean_normal(snapshot, snapshot.cell_of(contact.facet), vertex);
@@ -86,7 +86,7 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Vert
                                          const Particle<D>& q, double tolerance, Edge_counts& counts) {
   ++counts.searches;
   const Point<D>&a = path.from.position, &b = path.to.position;
-  std::optional<Wall_contact<D>> last;
+  std::optional<Contact<D>> last;
   const auto is_free_at = [&](const Particle<D>& p) {
     ++counts.search_walks;
     const Chain_result<D> walked = find_chain(snapshot, p, q, counts.walk);
@@ -117,7 +117,9 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Vert
     ++counts.search_misses;
     return {};
   }
-  Contact<D> contact = to_contact(*last, Exact_time(low), Body_feature::edge);
+  Contact<D> contact = *last;
+  contact.time = low;
+  contact.body = Body_feature::edge;
   contact.normal = edge_normal(snapshot, {a, b, q.position}, contact, contact.normal);
   return bisected(snapshot, path, contact, low, nearest_corner(snapshot, contact.facet, contact.point));
 }

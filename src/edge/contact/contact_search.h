@@ -4,9 +4,9 @@
 #define CELLWALK_EDGE_CONTACT_CONTACT_SEARCH_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/walk/contact.h>
 
 #include <functional>
 #include <optional>

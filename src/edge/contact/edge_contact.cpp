@@ -33,7 +33,7 @@ template <int D>
 Contact<D> edge_contact(const Snapshot<D>& snapshot, const Exact_time& time, Half_facet wall) {
   if (wall == Half_facet::none) refuse_uncertified();
   Contact<D> contact;
-  contact.time = time;
+  contact.set_time(time);
   contact.body = Body_feature::edge;
   contact.facet = wall;
   contact.cell = snapshot.cell_of(wall);

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H
 #define CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/walk/contact.h>
 
 #include "edge/chain/ridge.h"
 #include "edge/exact/rational_segment.h"

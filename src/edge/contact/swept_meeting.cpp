@@ -189,7 +189,7 @@ template <int D>
 Vector<D> edge_normal(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle,
                       const Contact<D>& contact, const Vector<D>& of_wall) {
   const Vector<D> back = unit<D>(triangle.a - triangle.b);
-  const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.rounded_time()));
+  const Vector<D> edge = unit<D>(triangle.q - point_on<D>(triangle.a, triangle.b, contact.time));
   if (contact.kind == Contact_kind::facet) {
     // The edge may come from behind the wall; then it meets the other side of the wall.
     const Vector<D> behind = -1.0 * of_wall + Vector<D>{};
@@ -213,7 +213,7 @@ Contact<D> contact_with(const Snapshot<D>& snapshot, const Swept_triangle<D>& tr
   const Cell_view<D> cell = snapshot.view(c);
   const std::size_t i = snapshot.facet_of(wall);
   Contact<D> contact;
-  contact.time = to_time(meeting.time);
+  contact.set_time(to_time(meeting.time));
   contact.point = meeting.point.rounded();
   const Facet_feature feature = lowest_feature<D>(cell, i, meeting.point);
   contact.kind = feature.kind;

@@ -27,7 +27,8 @@ bool is_faced(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, co
 template <int D>
 bool is_preferred(const Snapshot<D>& snapshot, const Swept_triangle<D>& triangle, const Contact<D>& contact,
                   const Contact<D>& other, Walk_counts& counts) {
-  if (contact.time == other.time && contact.body == other.body && contact.kind == other.kind) {
+  if (contact.exact_time() == other.exact_time() && contact.body == other.body &&
+      contact.kind == other.kind) {
     const bool is_first = is_faced(snapshot, triangle, contact, counts);
     if (is_first != is_faced(snapshot, triangle, other, counts)) return is_first;
   }

@@ -76,7 +76,7 @@ class Face_sweep {
 
   Contact<3> contact() const {
     Contact<3> contact;
-    contact.time = to_time(first_.time);
+    contact.set_time(to_time(first_.time));
     contact.point = first_.point.rounded();
     contact.kind = first_.feature.kind;
     contact.corner = first_.feature.corner;
@@ -155,7 +155,7 @@ Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, 
     if (result.contact && path.blocked) {
       const Cell last = path.visited.back();
       const auto blocked = detail::exit_time<3>(snapshot.view(last), corners[0], corners[1], counts.walk);
-      if (result.contact->time >= blocked.exact()) result.contact.reset();
+      if (result.contact->exact_time() >= blocked.exact()) result.contact.reset();
     }
     if (result.contact || !is_made) return result;
     result.supporting_walls = sweep.supporting_walls_at_end(candidates);

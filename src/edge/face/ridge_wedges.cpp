@@ -185,7 +185,7 @@ std::optional<Contact<3>> Ridge_wedges::conflict() const {
     const Exact_point<3> point = Rational_segment<3>(a_, b_).at(piece.low);
     const Facet_feature feature =
         lowest_feature<3>(snapshot_.view(contact.cell), snapshot_.facet_of(contact.facet), point);
-    contact.time = to_time(piece.low);
+    contact.set_time(to_time(piece.low));
     contact.point = point.rounded();
     contact.kind = feature.kind;
     contact.corner = feature.corner;

@@ -83,7 +83,7 @@ std::optional<Contact<3>> wall_in_wedge(const Snapshot<3>& snapshot, const Verte
   }
   if (!first) return {};
   Contact<3> contact;
-  contact.time = to_time(first->time);
+  contact.set_time(to_time(first->time));
   contact.point = first->point.rounded();
   contact.kind = first->feature.kind;
   contact.corner = first->feature.corner;

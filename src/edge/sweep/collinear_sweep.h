@@ -4,8 +4,8 @@
 #define CELLWALK_EDGE_SWEEP_COLLINEAR_SWEEP_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/walk/contact.h>
 
 #include "edge/exact/rational_segment.h"
 

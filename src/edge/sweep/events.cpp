@@ -291,7 +291,7 @@ void sweep_on_all_sides(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
     // Sides taken after a contact do not matter.
     const auto is_exhausted = [&](const Edge_choice<D>& choice) {
       return choice.taken + 1 == choice.relinked.size() ||
-             (result && result->contact && result->contact->time < choice.state.time.exact());
+             (result && result->contact && result->contact->exact_time() < choice.state.time.exact());
     };
     while (!open.empty() && is_exhausted(open.back())) open.pop_back();
     if (open.empty()) return;
@@ -311,7 +311,7 @@ Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>&
   Sweep_result<D> result = *sweep.run(before);  // what has no choices is nowhere twice
   if (!result.contact || !sweep.was_relinked()) return result;
   sweep_on_all_sides(snapshot, path, q, before, counts, until, rule, [&](const Sweep_result<D>& other) {
-    if (!other.contact || result.contact->time < other.contact->time) result = other;
+    if (!other.contact || result.contact->exact_time() < other.contact->exact_time()) result = other;
     return !other.contact;
   });
   return result;

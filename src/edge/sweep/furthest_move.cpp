@@ -8,7 +8,8 @@ bool detail::may_pass_on_other_sides(const Snapshot<D>& snapshot, const Point<D>
                                      const Walk_result<D>& walked, const Contact<D>& contact, Touch touch,
                                      Walk_counts& counts) {
   if (!walked.had_choice || touch == Touch::stop) return false;
-  return !walked.contact || contact.time < vertex_contact(snapshot, a, b, *walked.contact, counts).time;
+  return !walked.contact ||
+         contact.exact_time() < vertex_contact(snapshot, a, b, *walked.contact, counts).exact_time();
 }
 
 template bool detail::may_pass_on_other_sides(const Snapshot<2>&, const Point<2>&, const Point<2>&,

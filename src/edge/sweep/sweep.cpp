@@ -162,9 +162,11 @@ Sweep_result<D> sweep_edge_along(const Snapshot<D>& snapshot, const Vertex_path<
 
 template <int D>
 Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
-                          const Wall_contact<D>& met, Walk_counts& counts) {
+                          const Contact<D>& met, Walk_counts& counts) {
   const detail::Event_time<D> time = detail::exit_time<D>(snapshot.view(met.cell), from, target, counts);
-  return to_contact(met, time.exact(), Body_feature::vertex);
+  Contact<D> contact = met;
+  contact.set_time(time.exact());
+  return contact;
 }
 
 template <int D>
@@ -218,7 +220,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                                                const Particle<D>&, const Chain&, const Sweep_options&,       \
                                                Edge_counts&, const std::optional<Contact<D>>&);              \
   template Contact<D> vertex_contact<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&,                \
-                                        const Wall_contact<D>&, Walk_counts&);                               \
+                                        const Contact<D>&, Walk_counts&);                                    \
   template std::optional<Contact<D>> first_touch<D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&, \
                                                     Edge_counts&);                                           \
   template std::optional<Contact<D>> closed_meeting<D>(const Snapshot<D>&, Cell, const Swept_triangle<D>&,   \

@@ -85,10 +85,12 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
   const auto [feature, number] = lowest(group, vertices, obstruction);
 
   Wall_hit<D> hit;
-  hit.time = to_time(met.time);
+  hit.set_time(to_time(met.time));
   hit.facet = wall.facet;
   hit.vertex = star.vertex();
   hit.resident = groups.at({obstruction.member.group, number}, feature);
+  hit.body = hit.resident.feature;
+  hit.feature = hit.resident.number;
   const std::vector<std::size_t> of_wall = places_used(met.wall);
   hit.kind = of_wall.size() == 1             ? Contact_kind::vertex
              : D == 3 && of_wall.size() == 2 ? Contact_kind::edge
@@ -107,7 +109,7 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
         shares[static_cast<std::size_t>(std::ranges::find(vertices, lowest_vertices[k]) - vertices.begin())];
   // The wall at that time, the corners that meet first.
   const auto& corners = wall.swept.corners();
-  std::vector<Point<D>> now{point_on<D>(corners[0], corners[1], hit.time.rounded())};
+  std::vector<Point<D>> now{point_on<D>(corners[0], corners[1], hit.time)};
   now.insert(now.end(), corners.begin() + 2, corners.end());
   std::vector<Point<D>> ordered;
   ordered.reserve(now.size());

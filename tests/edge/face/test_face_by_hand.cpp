@@ -42,8 +42,8 @@ TEST(FaceByHand, FindsTheSpikeThatTheEdgesMiss) {
   const auto outcome = body.move_corner(0, {2.375, 2.375, 0.75});
   ASSERT_TRUE(outcome.is_face_only());  // the paper's figure 6
   const Contact<3>& contact = *outcome.face.contact;
-  EXPECT_EQ(text(to_rational(contact.time)), "3/4");  // 2.875 - s/2 = 2.5
-  EXPECT_EQ(contact.rounded_time(), 0.75);
+  EXPECT_EQ(text(to_rational(contact.exact_time())), "3/4");  // 2.875 - s/2 = 2.5
+  EXPECT_EQ(contact.time, 0.75);
   EXPECT_EQ(contact.point, tip);
   EXPECT_EQ(contact.kind, Contact_kind::vertex);
   EXPECT_EQ(contact.body, Body_feature::face);
@@ -67,7 +67,7 @@ TEST(FaceByHand, TheOrderOfTheCornersDoesNotMatter) {
       ASSERT_TRUE(place(body, snapshot, corners));
       const auto outcome = body.move_corner(k, {2.375, 2.375, 0.75});
       ASSERT_TRUE(outcome.is_face_only());
-      EXPECT_EQ(text(to_rational(outcome.face.contact->time)), "3/4");
+      EXPECT_EQ(text(to_rational(outcome.face.contact->exact_time())), "3/4");
       EXPECT_GT(outcome.face.contact->normal[2], 0.9);
     }
   }
@@ -82,7 +82,7 @@ TEST(FaceByHand, TouchingASpikeIsFree) {
   EXPECT_EQ(body.registered().piercing, Half_facet::none);
   const auto down = body.move_corner(0, {2.375, 2.375, 0.75});
   ASSERT_TRUE(down.is_face_only());
-  EXPECT_EQ(down.face.contact->time, Exact_time());
+  EXPECT_EQ(down.face.contact->exact_time(), Exact_time());
   EXPECT_EQ(down.face.contact->point, tip);
   EXPECT_EQ(down.face.contact->body, Body_feature::face);
   EXPECT_TRUE(body.move_corner(1, {2.5, 0.5, 1.5}).is_made());  // off it, by another corner
@@ -100,7 +100,7 @@ TEST(FaceByHand, StopsWhereThePointIsBlocked) {
   ASSERT_TRUE(place(body, snapshot, over_tip));
   const auto hit = body.move_corner(0, {1.875, 1.875, 0.75});
   ASSERT_TRUE(hit.vertex && hit.face.contact);
-  EXPECT_EQ(text(to_rational(hit.face.contact->time)), "3/8");
+  EXPECT_EQ(text(to_rational(hit.face.contact->exact_time())), "3/8");
   // Away from the tip, into the wall x = 3 and far beyond: nothing before that.
   const auto away = body.move_corner(0, {3.5, 2.875, 0.75});
   EXPECT_TRUE(away.vertex && !away.face.contact);
@@ -120,7 +120,7 @@ TEST(FaceByHand, ATipThroughAnEdge) {
     ASSERT_TRUE(place(body, snapshot, {a, q, Point<3>{1, 1, 1.5}}));
     const auto outcome = body.move_corner(0, b);
     ASSERT_TRUE(outcome.is_face_only()) << "the face is over the block";
-    EXPECT_EQ(text(to_rational(outcome.face.contact->time)), "1/2");
+    EXPECT_EQ(text(to_rational(outcome.face.contact->exact_time())), "1/2");
     EXPECT_EQ(outcome.face.contact->point, tip);
     EXPECT_EQ(outcome.face.contact->kind, Contact_kind::vertex);
     EXPECT_EQ(outcome.face.contact->body, Body_feature::edge);
@@ -136,7 +136,7 @@ TEST(FaceByHand, CutsNoCornerOffABlockOnWhichItRests) {
   EXPECT_FALSE(snapshot.is_solid(snapshot.cell_of(body.supporting_walls()[0])));
   const auto outcome = body.move_corner(0, {1.5, 2, 1});
   ASSERT_TRUE(outcome.is_face_only()) << "the edges slide on the block, no wall is crossed";
-  EXPECT_EQ(outcome.face.contact->time, Exact_time());
+  EXPECT_EQ(outcome.face.contact->exact_time(), Exact_time());
   EXPECT_EQ(outcome.face.contact->facet, body.supporting_walls()[0]);
   EXPECT_TRUE(body.move_corner(0, {2.5, 2, 1}).is_made());
   EXPECT_TRUE(body.supporting_walls().empty());
@@ -172,7 +172,7 @@ TEST(FaceByHand, LandsOnAMembraneAndLeavesOnlyUpwards) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto through = body.move_corner(k, Floating::at(2 - from)[k]);
       ASSERT_TRUE(through.is_face_only());
-      EXPECT_EQ(through.face.contact->time, Exact_time());
+      EXPECT_EQ(through.face.contact->exact_time(), Exact_time());
       EXPECT_EQ(through.face.contact->normal[2], from > 1 ? 1 : -1);
     }
     // Sliding in the plane keeps the side.
@@ -193,15 +193,15 @@ TEST(FaceByHand, AMembraneThatPassesWhollyThrough) {
   ASSERT_TRUE(place(body, snapshot, corners));
   auto outcome = body.move_corner(2, {2.5, 4.75, 0.5});
   ASSERT_TRUE(outcome.is_face_only());
-  EXPECT_EQ(text(to_rational(outcome.face.contact->time)), "1/2") << "flat on it";
+  EXPECT_EQ(text(to_rational(outcome.face.contact->exact_time())), "1/2") << "flat on it";
   // From a tilted start to a tilted end, the membrane on different sides of the face.
   corners = {Point<3>{0.25, 0.25, 1.125}, Point<3>{4.75, 0.25, 1.0625}, Point<3>{2.5, 4.75, 1.5}};
   Face_body tilted(snapshot);
   ASSERT_TRUE(place(tilted, snapshot, corners));
   outcome = tilted.move_corner(2, {2.5, 4.75, 0.125});
   ASSERT_TRUE(outcome.is_face_only());
-  EXPECT_GT(outcome.face.contact->rounded_time(), 0.0);
-  EXPECT_LT(outcome.face.contact->rounded_time(), 1.0);
+  EXPECT_GT(outcome.face.contact->time, 0.0);
+  EXPECT_LT(outcome.face.contact->time, 1.0);
   EXPECT_EQ(outcome.face.contact->kind, Contact_kind::vertex);
   EXPECT_FALSE(tilted.move_corner(2, {2.5, 4.75, 1.25}).face.contact);
 }
@@ -266,7 +266,7 @@ TEST(FaceByHand, WallsThatMeetInThePlaneOfTheFacePierceItTogether) {
     EXPECT_TRUE(place(body, snapshot, flat)) << "a wall stands under the face and touches it";
     const auto down = body.move_corner(0, {0.5, 0.5, 0.875});
     ASSERT_TRUE(down.is_face_only());
-    EXPECT_EQ(down.face.contact->time, Exact_time());
+    EXPECT_EQ(down.face.contact->exact_time(), Exact_time());
   }
   world.stand(2, 1, 1);
   {

@@ -75,7 +75,7 @@ TEST(FaceSidesByHand, LandsOnASlitAndLeavesAsItCame) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto through = body.move_corner(k, face_at(2 - from)[k]);
       ASSERT_TRUE(through.is_face_only());
-      EXPECT_EQ(through.face.contact->time, Exact_time());
+      EXPECT_EQ(through.face.contact->exact_time(), Exact_time());
       EXPECT_EQ(through.face.contact->normal[2], from > 1 ? 1 : -1);
     }
     ASSERT_TRUE(body.move_corner(2, {2.5, 4.875, 1}).is_made());  // in the plane
@@ -94,7 +94,7 @@ TEST(FaceSidesByHand, AFlatSlitStopsAFaceFromItsOwnSide) {
     ASSERT_TRUE(put(body, snapshot, corners));
     const auto outcome = body.move_corner(2, {2.5, 4.75, 2 - from});
     ASSERT_TRUE(outcome.is_face_only());
-    EXPECT_EQ(to_rational(outcome.face.contact->time), Rational(1) / 2);
+    EXPECT_EQ(to_rational(outcome.face.contact->exact_time()), Rational(1) / 2);
     EXPECT_EQ(outcome.face.contact->normal[2] > 0, from > 1);
   }
 }

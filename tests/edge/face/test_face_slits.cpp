@@ -193,7 +193,7 @@ void compare_listings(const oracle::World<3>& world, std::uint64_t number, Listi
       ASSERT_EQ(a.edge.has_value(), b.edge.has_value()) << world.name;
       ASSERT_EQ(a.face.contact.has_value(), b.face.contact.has_value()) << world.name;
       if (a.face.contact) {
-        EXPECT_EQ(a.face.contact->time, b.face.contact->time) << world.name;
+        EXPECT_EQ(a.face.contact->exact_time(), b.face.contact->exact_time()) << world.name;
         EXPECT_EQ(a.face.contact->kind, b.face.contact->kind) << world.name;
         EXPECT_EQ(a.face.is_edge_on_other_side, b.face.is_edge_on_other_side) << world.name;
       }

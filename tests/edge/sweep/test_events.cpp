@@ -27,8 +27,8 @@ void expect_same(const Sweep_result<D>& a, const Sweep_result<D>& b, const std::
   EXPECT_EQ(a.chain, b.chain) << world;
   ASSERT_EQ(a.contact.has_value(), b.contact.has_value()) << world;
   if (!a.contact) return;
-  EXPECT_EQ(a.contact->time, b.contact->time) << world;
-  EXPECT_EQ(a.contact->rounded_time(), b.contact->rounded_time()) << world;
+  EXPECT_EQ(a.contact->exact_time(), b.contact->exact_time()) << world;
+  EXPECT_EQ(a.contact->exact_time(), b.contact->exact_time()) << world;
   EXPECT_EQ(a.contact->point, b.contact->point) << world;
   for (int k = 0; k < D; ++k)
     EXPECT_EQ(std::signbit(a.contact->point[k]), std::signbit(b.contact->point[k])) << world;

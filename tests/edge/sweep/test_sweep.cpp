@@ -54,14 +54,14 @@ void compare_bisected_segment(const Edge_world<D>& w, const Particle<D>& p, cons
   if (found.contact->body == Body_feature::edge) expect_against(w, p, target, *found.contact, seen);
   if (seen.counts.search_misses > misses) {
     // The edge is free at the end, and the exact contact is reported, or before it that of p.
-    EXPECT_FALSE(exact.contact->time < found.contact->time);
+    EXPECT_FALSE(exact.contact->exact_time() < found.contact->exact_time());
     ++seen.bisected_none;
     return;
   }
   EXPECT_LE(seen.counts.search_walks - walks, 2 * 13u);  // twice, if other sides were tried
   if (found.contact->body == Body_feature::vertex) return;
   Particle<D> here = p;
-  const Point<D> place = point_on<D>(p.position, target, found.contact->rounded_time());
+  const Point<D> place = point_on<D>(p.position, target, found.contact->time);
   const bool is_free = move(w.snapshot, here, place, seen.counts.walk).status == Walk_status::arrived &&
                        !find_any_chain(w.snapshot, here, q, seen.counts.walk).contact;
   // The search comes there by several moves between rounded points, so it may be on another side of a wall,
@@ -70,9 +70,9 @@ void compare_bisected_segment(const Edge_world<D>& w, const Particle<D>& p, cons
   if (generic) {
     EXPECT_TRUE(is_free) << w.world.name;
   }
-  if (exact.contact->time < found.contact->time)
+  if (exact.contact->exact_time() < found.contact->exact_time())
     ++seen.bisected_late;
-  else if (exact.contact->rounded_time() <= found.contact->rounded_time() + tolerance)
+  else if (exact.contact->time <= found.contact->time + tolerance)
     ++seen.bisected_close;
   else
     ++seen.bisected_grazing;  // p(s), rounded, met what p(s) passes
@@ -93,14 +93,14 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
   const Sweep_result<D> touched = answer(options);
   if (exact.contact) {
     ASSERT_TRUE(touched.contact) << w.world.name;
-    EXPECT_FALSE(exact.contact->time < touched.contact->time);
+    EXPECT_FALSE(exact.contact->exact_time() < touched.contact->exact_time());
   } else {
     seen.touched_only += touched.contact.has_value();
   }
   if (generic) {
     ASSERT_EQ(touched.contact.has_value(), exact.contact.has_value()) << w.world.name;
     if (exact.contact) {
-      EXPECT_EQ(touched.contact->time, exact.contact->time) << w.world.name;
+      EXPECT_EQ(touched.contact->exact_time(), exact.contact->exact_time()) << w.world.name;
     }
   }
   if (touched.contact) expect_against(w, p, target, *touched.contact, seen);
@@ -111,9 +111,9 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
     return;
   }
   seen.missed_by_segments += !segments.contact;
-  seen.at_start += exact.contact->time == Exact_time();
+  seen.at_start += exact.contact->exact_time() == Exact_time();
   if (segments.contact) {
-    EXPECT_FALSE(segments.contact->time < exact.contact->time) << w.world.name;
+    EXPECT_FALSE(segments.contact->exact_time() < exact.contact->exact_time()) << w.world.name;
   }
   expect_against(w, p, target, *exact.contact, seen);
   if (exact.contact->body == Body_feature::vertex) return;
@@ -126,8 +126,8 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
   const Sweep_result<D> bisected = answer({.search = Contact_search::dichotomic, .tolerance = tolerance});
   ASSERT_TRUE(bisected.contact);
   if (bisected.contact->body == Body_feature::edge) {
-    EXPECT_FALSE(exact.contact->time < bisected.contact->time) << w.world.name;
-    EXPECT_LE(exact.contact->rounded_time(), bisected.contact->rounded_time() + tolerance) << w.world.name;
+    EXPECT_FALSE(exact.contact->exact_time() < bisected.contact->exact_time()) << w.world.name;
+    EXPECT_LE(exact.contact->time, bisected.contact->time + tolerance) << w.world.name;
     EXPECT_NEAR(length(bisected.contact->normal), 1, 1e-14);
     expect_against(w, p, target, *bisected.contact, seen);
   }
@@ -138,7 +138,7 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
   const bool none = seen.counts.search_misses > misses;
   seen.exhaustive_none += none;
   ASSERT_TRUE(found.contact);
-  const auto order = found.contact->time <=> exact.contact->time;
+  const auto order = found.contact->exact_time() <=> exact.contact->exact_time();
   seen.exhaustive_equal += !none && order == 0;
   seen.exhaustive_earlier += order < 0;  // an obstacle that is merely touched
   seen.exhaustive_later +=
@@ -157,14 +157,15 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
   const std::uint64_t walls_below = seen.counts.search_walls - walls;
   exhaustive.below = false;
   const Sweep_result<D> of_all = answer(exhaustive);
-  EXPECT_EQ(of_all.contact->time, found.contact->time);
+  EXPECT_EQ(of_all.contact->exact_time(), found.contact->exact_time());
   EXPECT_EQ(of_all.contact->facet, found.contact->facet);
   EXPECT_GE(seen.counts.search_walls - walls, 2 * walls_below);
   exhaustive.below = true;
   exhaustive.cells = Search_cells::traversed;
   const std::uint64_t before = seen.counts.search_misses;
   const Sweep_result<D> paper = answer(exhaustive);
-  const bool is_equal = seen.counts.search_misses == before && paper.contact->time == found.contact->time;
+  const bool is_equal =
+      seen.counts.search_misses == before && paper.contact->exact_time() == found.contact->exact_time();
   (is_equal ? seen.traversed_equal : seen.traversed_other) += 1;
 }
 
@@ -272,7 +273,7 @@ TEST(Sweep, BisectionOfTheSegmentMissesWhatTheEdgeLeavesBehind) {
   const auto time = [&](const Sweep_options& options) {
     const auto contact = room.sweep(from, to, q, options, counts).contact;
     EXPECT_TRUE(contact);
-    return contact ? contact->rounded_time() : 0;
+    return contact ? contact->time : 0;
   };
   // In the line from q through (1,1) p is at x = 31/30; the other obstacle begins at (6,1).
   const double first = (31.0 / 30 - 0.25) / 6.5, second = (0.5 + 5.5 * 16 / 15 - 0.25) / 6.5;
@@ -287,9 +288,9 @@ TEST(Sweep, BisectionOfTheSegmentMissesWhatTheEdgeLeavesBehind) {
     counts = {};
   }
   // Where the edge is free at its end there is nothing to bisect: the exact contact is reported.
-  EXPECT_NEAR(room.sweep(from, {4, 0.75}, q, {.search = Contact_search::dichotomic_segment}, counts)
-                  .contact->rounded_time(),
-              (31.0 / 30 - 0.25) / 3.75, 1e-15);
+  EXPECT_NEAR(
+      room.sweep(from, {4, 0.75}, q, {.search = Contact_search::dichotomic_segment}, counts).contact->time,
+      (31.0 / 30 - 0.25) / 3.75, 1e-15);
   EXPECT_EQ(counts.search_misses, 1u);
 }
 
@@ -306,12 +307,12 @@ TEST(Sweep, ThreeSegmentsEndWhereAWallStopsP) {
     const auto met = by({0.5, 5}, sweep);
     ASSERT_TRUE(met);
     EXPECT_EQ(met->body, Body_feature::edge);
-    EXPECT_NEAR(met->rounded_time(), (7.0 / 6 - 0.25) / 4.75, 1e-15);
+    EXPECT_NEAR(met->time, (7.0 / 6 - 0.25) / 4.75, 1e-15);
     // p leaves the room to the left, below that line; with the motion as far, above it.
     const auto left = by({-2.5, 2.5}, sweep);
     ASSERT_TRUE(left);
     EXPECT_EQ(left->body, Body_feature::vertex);
-    EXPECT_NEAR(left->rounded_time(), 1.0 / 6, 1e-15);
+    EXPECT_NEAR(left->time, 1.0 / 6, 1e-15);
   }
   EXPECT_EQ(by({0.5, 5}, Sweep::three_segments)->normal, by({0.5, 5}, Sweep::triangle)->normal);
 }

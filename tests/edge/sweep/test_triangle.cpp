@@ -32,9 +32,9 @@ void check_blocked(const Edge_world<D>& w, const Moved_end<D>& moved, const Part
   ++seen.blocked;
   if (edge.contact) {
     ++seen.edge_first;
-    EXPECT_LE(edge.contact->rounded_time(), moved.contact->time + rounding);
+    EXPECT_LE(edge.contact->time, moved.contact->time + rounding);
     if (generic) {
-      EXPECT_TRUE(hit && std::abs(*hit - edge.contact->rounded_time()) <= rounding) << w.world.name;
+      EXPECT_TRUE(hit && std::abs(*hit - edge.contact->time) <= rounding) << w.world.name;
     }
   } else if (hit) {
     EXPECT_GE(*hit, moved.contact->time - rounding)
@@ -65,13 +65,13 @@ Sweep_result<D> check_arrived(const Edge_world<D>& w, const Moved_end<D>& moved,
   }
   if (!hit && edge.contact) {
     ++seen.only_blocked;
-    EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->rounded_time();
+    EXPECT_FALSE(generic) << w.world.name << ": false block at " << edge.contact->time;
   }
   if (hit && edge.contact) {
     // Walls may block before one of them crosses: where two meet in the plane of the triangle, or p took a
     // side.
     constexpr double rounding = 0x1p-52;  // of both times
-    const double early = *hit - edge.contact->rounded_time();
+    const double early = *hit - edge.contact->time;
     seen.wrong_times += early < 0 || (generic && early > rounding);
     EXPECT_GE(early, 0) << w.world.name;
     if (generic) {

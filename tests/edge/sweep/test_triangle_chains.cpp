@@ -85,13 +85,13 @@ void judge(const Edge_world<D>& w, const oracle::Chain_oracle<D>& oracle, const 
   seen.long_chains += before.size() >= 8;
   if (path.blocked) return;
   seen.only_together += result.contact && !w.walls.is_crossed(motion.a, motion.b, motion.q);
-  seen.at_once += result.contact && result.contact->rounded_time() == 0;
+  seen.at_once += result.contact && result.contact->time == 0;
   // A weaker sweep must not satisfy the oracle.
   Walk_counts counts;
   const Chain_result<D> found = find_chain(w.snapshot, path.to, q, counts);
   Sweep_result<D> third{{}, found.chain};
-  if (found.contact)
-    third.contact = to_contact(*found.contact, Exact_time(found.contact->time), Body_feature::edge);
+  third.contact = found.contact;
+  if (third.contact) third.contact->body = Body_feature::edge;
   const Sweep_fault of_third = fault_of(oracle, motion, outcomes, w.snapshot, third);
   ++seen.faults_of_third_side[static_cast<std::size_t>(of_third)];
 }

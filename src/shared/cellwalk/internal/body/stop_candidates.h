@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_BODY_STOP_CANDIDATES_H
 #define CELLWALK_INTERNAL_BODY_STOP_CANDIDATES_H
 
-#include <cellwalk/edge/contact.h>
+#include <cellwalk/walk/contact.h>
 
 #include <functional>
 

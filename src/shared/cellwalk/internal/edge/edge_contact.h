@@ -3,9 +3,9 @@
 #ifndef CELLWALK_INTERNAL_EDGE_EDGE_CONTACT_H
 #define CELLWALK_INTERNAL_EDGE_EDGE_CONTACT_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
+#include <cellwalk/walk/contact.h>
 
 namespace cellwalk::detail {
 

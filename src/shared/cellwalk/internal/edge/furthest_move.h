@@ -4,9 +4,9 @@
 #ifndef CELLWALK_INTERNAL_EDGE_FURTHEST_MOVE_H
 #define CELLWALK_INTERNAL_EDGE_FURTHEST_MOVE_H
 
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/walk/sides_taken.h>
+#include <cellwalk/walk/contact.h>
 
 #include <optional>
 
@@ -32,15 +32,15 @@ std::optional<Contact<D>> furthest_move(const Snapshot<D>& snapshot, const Point
   Sides_taken tried;
   for (int tries = 0; tries < most_side_tries; ++tries) {
     const std::optional<Contact<D>> contact = move_on(tried);
-    if (!contact || !latest || latest->time < contact->time) {
+    if (!contact || !latest || latest->exact_time() < contact->exact_time()) {
       choices = tried;
       latest = contact;
     }
     if (!contact) break;
     // Sides taken after the contact do not matter. That of a face may be due to an edge on the other side,
     // whenever that came there.
-    const bool is_at_its_time = contact->body != Body_feature::face || contact->time != Exact_time();
-    while (is_at_its_time && !tried.empty() && contact->time < time_of(snapshot, a, b, tried.back()))
+    const bool is_at_its_time = contact->body != Body_feature::face || contact->exact_time() != Exact_time();
+    while (is_at_its_time && !tried.empty() && contact->exact_time() < time_of(snapshot, a, b, tried.back()))
       tried.pop_back();
     if (!take_next_sides(tried)) break;
   }

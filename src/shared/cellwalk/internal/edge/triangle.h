@@ -5,8 +5,8 @@
 #define CELLWALK_INTERNAL_EDGE_TRIANGLE_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/contact.h>
 #include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/walk/contact.h>
 
 #include <cstdint>
 #include <optional>

@@ -11,14 +11,14 @@ namespace cellwalk::detail {
 
 template <class Archive, int D>
 void visit_parts(Archive& a, Contact<D>& contact) {
-  double time = contact.rounded_time();
+  double time = contact.time;
   a(time, contact.point, contact.normal, contact.kind, contact.corner, contact.facet, contact.cell,
     contact.body, contact.vertex, contact.feature);
   if constexpr (Archive::is_reading) {
     // They are names in tables.
     if (!std::isfinite(time) || contact.kind > Contact_kind::facet || contact.body > Body_feature::face)
       Archive::refuse();
-    contact.time = Exact_time(time);
+    contact.set_time(Exact_time(time));
   }
 }
 
