@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Install rules and the package that find_package(cellwalk COMPONENTS ...) reads.
 #   core     LGPL  kernel to simulation                 target cellwalk::core
-#   io       LGPL  readers and writers                  target cellwalk::io; its module for VTK is the component readers
+#   io       LGPL  readers and writers, pictures        targets cellwalk::io, cellwalk::drawing; its module for VTK is the component readers
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
 #   loading  LGPL  environments from files (GPL where it is built with meshing)  target cellwalk::loading
 include(CMakePackageConfigHelpers)
@@ -64,11 +64,14 @@ foreach(header IN LISTS installed_internals)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
         FILES_MATCHING PATTERN *.h PATTERN cli EXCLUDE PATTERN io EXCLUDE PATTERN meshing EXCLUDE PATTERN loading EXCLUDE)
+# <cellwalk/cellwalk.h> includes it, whatever is installed.
+install(FILES ${PROJECT_SOURCE_DIR}/include/cellwalk/loading/import.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cellwalk/loading COMPONENT dev)
 foreach(component IN LISTS CELLWALK_COMPONENTS)
   if(NOT component STREQUAL core)
     cellwalk_package_of(package ${component})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cellwalk/${component} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cellwalk
-            COMPONENT ${package} FILES_MATCHING PATTERN *.h)
+            COMPONENT ${package} FILES_MATCHING PATTERN *.h PATTERN import.h EXCLUDE)
   endif()
 endforeach()
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The core in one header: environments and their generators, particles, edges, bodies, queries, walls that
-// move. It does not include CGAL. Not included: the map (environment/map.h), the walk for your own kernels
-// (walk/walk_impl.h), scenes (simulation/), and the other components (io/, meshing/, loading/).
+// All that most programs need: environments from files and generators, particles, edges, bodies, queries,
+// walls that move, pictures. docs/start.md begins here. It does not include CGAL. import_environment() is in
+// the library cellwalk::loading, draw() in cellwalk::drawing, all else in cellwalk::core. Not included: the
+// map (environment/map.h), the walk for your own kernels (walk/walk_impl.h), scenes (simulation/), and
+// readers, writers and meshers with all their options (io/, loading/, meshing/).
 #ifndef CELLWALK_CELLWALK_H
 #define CELLWALK_CELLWALK_H
 
 #include <cellwalk/body/body.h>
+#include <cellwalk/drawing/draw.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/body_shapes.h>
@@ -14,6 +17,7 @@
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/loading/import.h>
 #include <cellwalk/query/edge_cells.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>

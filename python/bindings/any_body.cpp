@@ -2,6 +2,8 @@
 #include "any_body.h"
 
 #include <cellwalk/body/saved_body.h>
+#include <cellwalk/drawing/draw.h>
+#include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/records/make_body.h>
 
@@ -100,6 +102,44 @@ Any_body::Any_body(Held_world environment, const std::string& path)
     : environment_(std::move(environment)),
       body_(place(*environment_->world,
                   [&]<int D>(std::integral_constant<int, D>) { return io::read_body<D>(path).body; })) {}
+
+Any_body Any_body::rope(Held_world environment, const py::object& path, double spacing) {
+  Bodies body = place(*environment->world, [&]<int D>(std::integral_constant<int, D>) {
+    const auto points = points_of<D>(path, "path");
+    return cellwalk::rope<D>({points.begin(), points.end()}, spacing);
+  });
+  return {std::move(environment), std::move(body)};
+}
+
+void Any_body::draw(const Held_world& environment, const std::vector<const Any_body*>& bodies,
+                    const py::object& contacts, const std::string& file) {
+  std::visit(
+      [&]<int D>(const World<D>& any) {
+        std::vector<const Body<D>*> drawn;
+        for (const Any_body* body : bodies) {
+          if (body->environment_->world != environment->world)
+            throw py::value_error("a body of another environment cannot be drawn in this one");
+          drawn.push_back(&std::get<Body<D>>(body->body_));
+        }
+        std::vector<Contact<D>> met;
+        if (!contacts.is_none()) {
+          const auto column = [&](const char* name) {
+            return py::module_::import("numpy").attr("ascontiguousarray")(contacts[name]);
+          };
+          const py::object of_points = column("point"), of_normals = column("normal");
+          const auto points = points_of<D>(of_points, "contacts"),
+                     normals = points_of<D>(of_normals, "contacts");
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            Contact<D>& contact = met.emplace_back();
+            contact.point = points[i];
+            contact.normal = normals[i];
+          }
+        }
+        const typename World<D>::Reading reading(any);
+        cellwalk::draw<D>(reading.snapshot(), drawn, met, file);
+      },
+      *environment->world);
+}
 
 py::array Any_body::positions(const py::object& self) const {
   return std::visit(

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "arrays.h"
 #include "world.h"
@@ -25,6 +26,7 @@ class Any_body {
            const py::object& faces);
   /// The body of a file.
   Any_body(Held_world environment, const std::string& path);
+  static Any_body rope(Held_world environment, const py::object& path, double spacing);
 
   py::array positions(const py::object& self) const;
   py::array_t<std::uint32_t> edges() const;
@@ -43,6 +45,11 @@ class Any_body {
   py::dict counts() const;
 
   std::shared_ptr<const Any_world> world() const { return environment_->world; }
+  /// Draws bodies of one environment in it.
+  /// \param contacts of step(), or None
+  /// \throw py::value_error for a body of another environment
+  static void draw(const Held_world& environment, const std::vector<const Any_body*>& bodies,
+                   const py::object& contacts, const std::string& file);
   /// For reshape(), which is alone in the world.
   template <int D>
   Body<D>& body() {

@@ -59,6 +59,10 @@ void bind_bodies(py::module_& module) {
           },
           py::arg("environment"), py::arg("path"),
           "Registers the body of a mesh file or of a polyline in CSV.")
+      .def_static(
+          "rope", &Any_body::rope, py::arg("environment"), py::arg("path"), py::arg("spacing"),
+          "Registers a rope along a path, points (N, dimension): a polyline through all of them, with "
+          "edges no longer than the spacing.")
       .def("__len__", &Any_body::vertex_count)
       .def_property_readonly(
           "positions", [](const py::object& self) { return self.cast<const Any_body&>().positions(self); },
@@ -120,6 +124,16 @@ void bind_bodies(py::module_& module) {
            "Checks by exact predicates that every vertex is in its cell and no wall crosses the body; raises "
            "Error if so.")
       .def_property_readonly("counts", &Any_body::counts, "What all moves did: machine-independent counts.");
+  module.def(
+      "draw",
+      [](const std::shared_ptr<Shared_world>& environment, const std::vector<const Any_body*>& bodies,
+         const py::object& contacts,
+         const py::object& file) { Any_body::draw(environment, bodies, contacts, py::str(file)); },
+      py::arg("environment"), py::arg("bodies"), py::arg("contacts") = py::none(), py::kw_only(),
+      py::arg("file"),
+      "Draws the walls of an environment with bodies and contacts, as step() returns them, into a PNG file "
+      "of "
+      "1600 x 1000 pixels.");
 }
 
 }  // namespace cellwalk::python

@@ -29,6 +29,7 @@ from ._cellwalk import (
     WallMoves,
     __version__,
     build_features,
+    draw,
 )
 from ._codes import Feature, MoveEnd, Place, Status
 from ._errors import Error, InputError, NotCertifiedError, OutsideError, UsageError
@@ -57,4 +58,5 @@ __all__ = [
     "WallMoves",
     "__version__",
     "build_features",
+    "draw",
 ]

@@ -99,6 +99,10 @@ Body<D>::Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body
     : state_(registered<D>(snapshot, locator, soup)) {}
 
 template <int D>
+Body<D>::Body(const Environment<D>& environment, const Body_soup<D>& soup)
+    : Body(environment.snapshot(), Locator<D>(environment.snapshot()), soup) {}
+
+template <int D>
 Body<D>::Body(std::unique_ptr<detail::Body_state<D>> state) : state_(std::move(state)) {}
 
 template <int D>
@@ -177,6 +181,14 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
     return step_before_planes(body, targets, options, report, counts);
   counts.moves += targets.size();
   body.move_all(targets, counts);
+}
+
+template <int D>
+std::vector<Contact<D>> Body<D>::step(std::span<const Point<D>> targets) {
+  Step_report<D> report;
+  Body_counts uncounted;
+  step(targets, {}, report, uncounted);
+  return std::move(report.contacts);
 }
 
 template <int D>

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "quad_rotation.h"
@@ -107,6 +108,24 @@ Body_soup<D> generate_body(const Polyline_shape<D>& shape) {
   return open_polyline<D>(shape.points);
 }
 
+template <int D>
+Body_soup<D> rope(const std::vector<Point<D>>& path, double spacing) {
+  check_positive("rope", "spacing", spacing);
+  Polyline_shape<D> shape{path};
+  (void)generate_body(shape);  // refuses a path that is none
+  shape.points.assign(1, path.front());
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector<D> way = path[i] - path[i - 1];
+    const double pieces = std::max(1.0, std::ceil(length(way) / spacing));
+    if (!(static_cast<double>(shape.points.size()) + pieces <= most_generated_vertices))
+      throw Error(Error_code::usage,
+                  fmt::format("rope: more than {} vertices; give a larger spacing", most_generated_vertices));
+    for (double k = 1; k < pieces; ++k) shape.points.push_back(path[i - 1] + (k / pieces) * way);
+    shape.points.push_back(path[i]);
+  }
+  return generate_body(shape);
+}
+
 Body_soup<2> generate_body(const Body_shape<2>& shape) {
   return std::visit([](const auto& s) { return generate_body(s); }, shape);
 }
@@ -119,5 +138,7 @@ template Body_soup<2> generate_body(const Catheter_shape<2>&);
 template Body_soup<3> generate_body(const Catheter_shape<3>&);
 template Body_soup<2> generate_body(const Polyline_shape<2>&);
 template Body_soup<3> generate_body(const Polyline_shape<3>&);
+template Body_soup<2> rope(const std::vector<Point<2>>&, double);
+template Body_soup<3> rope(const std::vector<Point<3>>&, double);
 
 }  // namespace cellwalk

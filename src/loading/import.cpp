@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Any mesh becomes a certified environment, and every change is reported.
+#include <cellwalk/kernel/of_dimension.h>
 #include <cellwalk/loading/environment_file.h>
+#include <cellwalk/loading/import.h>
 #include <cellwalk/loading/report.h>
 
 #include <fmt/core.h>
@@ -142,5 +144,13 @@ class Import {
 Imported_environment import_environment(const std::string& path, const Import_options& options) {
   return Import(path, options).run();
 }
+
+template <int D>
+Environment<D> import_environment(const std::string& path) {
+  return of_dimension<D>(import_environment(path, {}).environment);
+}
+
+template Environment<2> import_environment(const std::string&);
+template Environment<3> import_environment(const std::string&);
 
 }  // namespace cellwalk

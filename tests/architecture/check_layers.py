@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-# The one header for users, which no file of the library includes.
+# The one header for users, which no file of the library includes. It includes the core, and what a first program needs besides.
 UMBRELLA = Path("include/cellwalk/cellwalk.h")
 CORE = ["kernel", "records", "generators", "environment", "walk", "edge", "query", "body", "reshape", "simulation"]
 # Headers that layers share and users do not see: <cellwalk/internal/LAYER/...>.
@@ -75,7 +75,7 @@ class Plan:
         drawing = re.search(r"```mermaid\n(.*?)```", text, re.DOTALL)[1]
         self.arrows = set(re.findall(r"^ *(\w+) --> (\w+)$", drawing, re.MULTILINE))
         self.layers = {layer: self.reached(layer) for layer in {layer for arrow in self.arrows for layer in arrow}}
-        self.layers["umbrella"] = set(CORE)
+        self.layers["umbrella"] = {*CORE, "drawing", "loading"}
         self.floors = {}
         for layer, floor, below in re.findall(r"^\| `(\w+)/(\w+)` \|.*\|([^|]*)\|$", text, re.MULTILINE):
             self.floors.setdefault(layer, {})[floor] = set(re.findall(r"`(\w+)`", below))

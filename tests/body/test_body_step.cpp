@@ -2,6 +2,7 @@
 // Steps of bodies by hand: where they stop, what they report, and how they go on.
 #include <cellwalk/body/body.h>
 #include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
@@ -337,6 +338,29 @@ void expect_sound_regions(const Snapshot<D>& snapshot, const Point<D>& high, int
 TEST(BodyStep, RegionsHoldNoWalls2) { expect_sound_regions<2>(rooms<2>({6, 6}, {8, 14, 27}), {6, 6}, 400); }
 TEST(BodyStep, RegionsHoldNoWalls3) {
   expect_sound_regions<3>(rooms<3>({4, 4, 4}, {21, 42, 5, 58}), {4, 4, 4}, 400);
+}
+
+TEST(BodyStep, TheShortFormsAreTheLongOnes) {
+  const auto environment = Environment<3>::build(hex_grid({.cells = {3, 3, 3}}));
+  const Snapshot<3>& snapshot = environment.snapshot();
+  const Body_soup<3> soup = rope({{0.5, 0.5, 0.5}, {0.5, 2.5, 0.5}}, 0.25);
+  Body<3> brief(environment, soup), whole(snapshot, Locator<3>(snapshot), soup);
+  std::size_t contacts = 0;
+  for (int step = 0; step < 10; ++step) {
+    const std::vector<Point<3>> targets = shifted(whole, {0.35, 0.1, 0.05});
+    Step_report<3> report;
+    Body_counts counts;
+    whole.step(targets, {}, report, counts);
+    const std::vector<Contact<3>> met = brief.step(targets);
+    ASSERT_TRUE(std::ranges::equal(brief.positions(), whole.positions()));
+    ASSERT_EQ(met.size(), report.contacts.size());
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      EXPECT_EQ(met[i].exact_time(), report.contacts[i].exact_time());
+      EXPECT_EQ(met[i].vertex, report.contacts[i].vertex);
+    }
+    contacts += met.size();
+  }
+  EXPECT_GT(contacts, 20u);
 }
 
 }  // namespace

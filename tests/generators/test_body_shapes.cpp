@@ -216,5 +216,26 @@ TEST(GenerateBody, RefusesWhatMakesNoSense) {
             "box: 16777220 vertices; give fewer cells, for at most 16777216");
 }
 
+TEST(GenerateBody, ARopePassesAllPointsOfItsPath) {
+  const auto body = sound(rope({{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}}, 0.3));
+  ASSERT_EQ(body.points.size(), 7u);
+  EXPECT_EQ(body.edges.size(), 6u);
+  EXPECT_EQ(body.points.front(), (Point<3>{0, 0, 0}));
+  EXPECT_EQ(body.points[1], (Point<3>{0.25, 0, 0}));
+  EXPECT_EQ(body.points[4], (Point<3>{1, 0, 0}));
+  EXPECT_EQ(body.points.back(), (Point<3>{1, 0.5, 0}));
+  for (const auto& [u, v] : body.edges) EXPECT_LE(length(body.points[v] - body.points[u]), 0.3);
+  EXPECT_EQ(rope<2>({{0, 0}, {0, 2}}, 5).points.size(), 2u);
+  EXPECT_EQ(rope({{1, 2, 3}}, 1).points.size(), 1u);
+}
+
+TEST(GenerateBody, ARopeNeedsAPathAndASpacing) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double spacing : {0.0, -1.0, infinity, 1e-9})
+    EXPECT_THROW(rope({{0, 0, 0}, {1, 0, 0}}, spacing), Error) << spacing;
+  EXPECT_THROW(rope<3>({}, 1), Error);
+  EXPECT_THROW(rope({{0, 0, 0}, {infinity, 0, 0}}, 1), Error);
+}
+
 }  // namespace
 }  // namespace cellwalk

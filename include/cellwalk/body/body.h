@@ -5,6 +5,7 @@
 #define CELLWALK_BODY_BODY_H
 
 #include <cellwalk/body/step.h>
+#include <cellwalk/environment/environment.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>
 
@@ -53,6 +54,9 @@ class Body {
   /// Cost: a location a vertex, a walk an edge, some us a face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Snapshot<D>&& snapshot, const Locator<D>& locator, const Body_soup<D>& soup) = delete;
+  /// The same, with a locator of its own. For many bodies, share one: it is made from all cells.
+  Body(const Environment<D>& environment, const Body_soup<D>& soup);
+  Body(const Environment<D>&& environment, const Body_soup<D>& soup) = delete;
   Body(const Body& other);
   Body(Body&& other) noexcept;
   Body& operator=(const Body& other);
@@ -91,6 +95,9 @@ class Body {
   /// body that was moved otherwise.
   void step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
             Body_counts& counts);
+
+  /// The same by Step_rule::slide, and returns the contacts.
+  std::vector<Contact<D>> step(std::span<const Point<D>> targets);
 
   /// Moves one vertex to a target, or leaves everything as it is and returns the first contact: as a step by
   /// Step_rule::reject, of the options but the sweep nothing counts. Gives a region

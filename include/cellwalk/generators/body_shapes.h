@@ -8,6 +8,7 @@
 #include <cellwalk/records/body_soup.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace cellwalk {
 
@@ -53,6 +54,13 @@ Body_soup<D> generate_body(const Catheter_shape<D>& shape);
 /// \throw Error(usage) where there is no point, or one that is not finite
 template <int D>
 Body_soup<D> generate_body(const Polyline_shape<D>& shape);
+
+/// A rope along a path: a polyline through all points of the path, whose edges are of equal length between
+/// two of them, and at most as long as the spacing.
+/// \throw Error(usage) where there is no point, or one that is not finite, unless the spacing is a positive
+///        number, and for more than 2^24 vertices
+template <int D = 3>
+Body_soup<D> rope(const std::vector<Point<D>>& path, double spacing);
 
 /// The body of any shape.
 /// \throw Error(usage) as above

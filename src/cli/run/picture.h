@@ -53,7 +53,6 @@ class Run_picture {
 
   /// One in each cube of a coarse grid, the earliest.
   Marks thinned(const Marks& marks) const;
-  double diagonal() const;  ///< of the environment's box
 
   const Snapshot<D>* snapshot_;
   bool walls_move_;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "picture_walls.h"
+#include <cellwalk/internal/drawing/walls.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <vector>
 
-namespace cellwalk::cli {
+namespace cellwalk::drawing {
 namespace {
 
-using drawing::Drawing;
 using Loop = std::vector<std::uint32_t>;
 
 // Triangles of facets in 3D, of cells in the plane; about 270 bytes each while they are drawn.
@@ -73,8 +72,7 @@ void draw_cells(Drawing& drawing, const Snapshot<2>& snapshot, const Wall_materi
       if (share < 1) points[k] = middle + growth * (points[k] - middle);
       loop.push_back(static_cast<std::uint32_t>(k));
     }
-    drawing::add_surface(drawing, points, std::vector<Loop>{loop},
-                         snapshot.is_solid(c) ? m.solid_cell : m.free_cell);
+    add_surface(drawing, points, std::vector<Loop>{loop}, snapshot.is_solid(c) ? m.solid_cell : m.free_cell);
   }
 }
 
@@ -85,14 +83,14 @@ bool is_among(double share, std::size_t number) {
   return static_cast<double>(number * golden >> 11) * 0x1p-53 < share;
 }
 
-drawing::Round_shapes lines_of_walls(const Snapshot<2>& snapshot) {
+Round_shapes lines_of_walls(const Snapshot<2>& snapshot) {
   const bool has_grid = snapshot.cell_count() <= most_grid_cells;
   std::size_t lines = 0;
   for_each_facet(snapshot, [&](Half_facet, bool is_wall) { lines += is_wall || has_grid; });
   return {0, lines, 2 * lines};
 }
 
-drawing::Round_shapes lines_of_walls(const Snapshot<3>&) { return {}; }
+Round_shapes lines_of_walls(const Snapshot<3>&) { return {}; }
 
 void draw_walls(Drawing& drawing, const Snapshot<2>& snapshot, const Wall_materials& m, double lines,
                 double unit) {
@@ -102,9 +100,9 @@ void draw_walls(Drawing& drawing, const Snapshot<2>& snapshot, const Wall_materi
   for_each_facet(snapshot, [&](Half_facet h, bool is_wall) {
     if ((!is_wall && !has_grid) || !is_among(lines, to_index(h))) return;
     const Loop ends = snapshot.loop(h);
-    drawing::add_flat_line(drawing, snapshot.point(ends[0]), snapshot.point(ends[1]),
-                           (is_wall ? wall_width : grid_width) * unit, (is_wall ? 2 : 1) * layer,
-                           is_wall ? m.wall : m.inner_edge);
+    add_flat_line(drawing, snapshot.point(ends[0]), snapshot.point(ends[1]),
+                  (is_wall ? wall_width : grid_width) * unit, (is_wall ? 2 : 1) * layer,
+                  is_wall ? m.wall : m.inner_edge);
   });
 }
 
@@ -129,7 +127,7 @@ void draw_walls(Drawing& drawing, const Snapshot<3>& snapshot, const Wall_materi
     }
     facets.push_back(std::move(loop));
   });
-  drawing::add_surface(drawing, points, facets, m.wall);
+  add_surface(drawing, points, facets, m.wall);
 }
 
-}  // namespace cellwalk::cli
+}  // namespace cellwalk::drawing
