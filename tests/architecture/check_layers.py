@@ -31,7 +31,7 @@ CGAL_HEADERS = {Path("include/cellwalk/environment/map.h")}
 TEST_WORLDS = {"generators": {"environment"}, "environment": {"generators"}, "walk": {"generators", "io", "meshing"},
                "edge": {"generators", "io"}, "query": {"generators"}, "body": {"generators"}, "reshape": {"generators"},
                "simulation": {"io", "meshing"},
-               "meshing": {"environment"}, "drawing": {"io"}}
+               "meshing": {"environment"}, "drawing": {"io", "generators"}}
 # Folders of tests that are of no one layer.
 OVERALL_TESTS = {"cli", "consumer", "fuzz", "viewer"}
 # Experiments whose results are judged by the oracles of tests, and where those are.

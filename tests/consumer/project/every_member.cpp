@@ -91,11 +91,15 @@ template <int D>
 void keep_bodies() {
   keep(
       +[](const Snapshot<D>& s, const Locator<D>& l, const Body_soup<D>& b) { return Body<D>(s, l, b); },
+      +[](const Environment<D>& e, const Body_soup<D>& b) { return Body<D>(e, b); },
+      static_cast<void (Body<D>::*)(std::span<const Point<D>>, const Body_options&, Step_report<D>&,
+                                    Body_counts&)>(&Body<D>::step),
+      static_cast<std::vector<Contact<D>> (Body<D>::*)(std::span<const Point<D>>)>(&Body<D>::step),
       &moved<Body<D>>, &Body<D>::register_again, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges,
-      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::step, &Body<D>::move_vertex, &Body<D>::refresh,
-      &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::cell_of, &Body<D>::validate);
+      &Body<D>::faces, &Body<D>::neighbours, &Body<D>::move_vertex, &Body<D>::refresh, &Body<D>::leave_region,
+      &Body<D>::particles, &Body<D>::chain, &Body<D>::cell_of, &Body<D>::validate);
 
-  keep(&save<D>, &restore_body<D>, &transformed<D>, &make_body<D>,
+  keep(&save<D>, &restore_body<D>, &transformed<D>, &make_body<D>, &rope<D>,
        static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),
        static_cast<Body_soup<D> (*)(const Polyline_shape<D>&)>(&generate_body));
 }
@@ -106,8 +110,7 @@ void keep_reshaping() {
       +[](Environment<D>& e, const Residents<D>& r) { return Reshaping<D>(e, r); }, &moved<Reshaping<D>>,
       static_cast<Vertex_result<D> (Reshaping<D>::*)(std::uint32_t, const Point<D>&)>(&Reshaping<D>::move),
       static_cast<Move_report<D> (Reshaping<D>::*)(std::span<const Vertex_move<D>>)>(&Reshaping<D>::move),
-      &Reshaping<D>::ask, static_cast<void (Reshaping<D>::*)()>(&Reshaping<D>::close),
-      static_cast<Outcome (Reshaping<D>::*)(Half_facet)>(&Reshaping<D>::close), &Reshaping<D>::open,
+      &Reshaping<D>::test_move, &Reshaping<D>::finish, &Reshaping<D>::close, &Reshaping<D>::open,
       &Reshaping<D>::excavate, &Reshaping<D>::fill, &Reshaping<D>::counts, &Reshaping<D>::insert_point,
       &Reshaping<D>::split_edge, &Reshaping<D>::flip, &Reshaping<D>::remove_edge, &Reshaping<D>::collapse,
       &Reshaping<D>::relax, &Reshaping<D>::split_vertex, &Reshaping<D>::cut, &Reshaping<D>::merge_vertices);
@@ -169,7 +172,9 @@ void keep_simulation() {
 
 template <int D>
 void keep_readers() {
-  keep(&io::read_body<D>,
+  keep(&io::read_body<D>, static_cast<Environment<D> (*)(const std::string&)>(&import_environment<D>),
+       static_cast<void (*)(const Snapshot<D>&, const std::vector<const Body<D>*>&,
+                            const std::vector<Contact<D>>&, const std::string&)>(&draw<D>),
        static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&, const Soup_groups&)>(
            &io::write_ovm<D>),
        static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&, const Soup_groups&)>(&io::write_ovm<D>),
