@@ -60,9 +60,9 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   require(exhaustive && exhaustive->exact_time() == exact->exact_time(),
           "3D: the exhaustive search finds the exact time");
   const double late = Sweep_options{}.tolerance;
-  require(dichotomic && dichotomic->exact_time() <= exact->exact_time() &&
-              exact->time - dichotomic->time <= late,
-          "3D: the dichotomic search is within its tolerance");
+  require(
+      dichotomic && dichotomic->exact_time() <= exact->exact_time() && exact->time - dichotomic->time <= late,
+      "3D: the dichotomic search is within its tolerance");
 
   const std::vector<Cell> met = cells_met<3>(snapshot, p.cell, {a, b, q});
   std::vector<Cell> traversed;

@@ -263,7 +263,7 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number
     const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
       if (tried.keep_touch(closed_meeting<D>(snapshot(), path.to.cell,
-                                       {path.to.position, q.position, path.to.position}, edges)))
+                                             {path.to.position, q.position, path.to.position}, edges)))
         return true;
       anew = find_any_chain(snapshot(), path.to, q, edges.walk);
     }

@@ -132,12 +132,12 @@ double diagonal_of(const Snapshot<D>& snapshot) {
   return length(box.high - box.low);
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                        \
+#define CELLWALK_INSTANTIATE(D)                                                                           \
   template void draw_contact<D>(Drawing&, const Point<D>&, const Vector<D>&, double, double, double,      \
-                             std::uint32_t);                                                           \
-  template void count_shapes(const Body<D>&, const Body_share&, Round_shapes&);                        \
+                                std::uint32_t);                                                           \
+  template void count_shapes(const Body<D>&, const Body_share&, Round_shapes&);                           \
   template void draw_body<D>(Drawing&, const Body<D>&, std::span<const Point<D>>, const Scene_materials&, \
-                          const Body_share&, double, double, Numbers_drawn&);                          \
+                             const Body_share&, double, double, Numbers_drawn&);                          \
   template double diagonal_of(const Snapshot<D>&);
 
 CELLWALK_INSTANTIATE(2)
