@@ -136,7 +136,7 @@ Cell_table cell_table_of(const Snapshot<D>& snapshot, std::span<const Half_facet
     const std::array numbers{
         static_cast<std::int32_t>(snapshot.index(cell)), static_cast<std::int32_t>(snapshot.facet_of(f)),
         other == Cell::none ? no_number : static_cast<std::int32_t>(snapshot.index(other))};
-    writer.write(mean_of(snapshot, f), numbers, snapshot.loop(f), snapshot.is_impassable(f));
+    writer.write(centroid(snapshot, f), numbers, snapshot.loop(f), snapshot.is_impassable(f));
   }
   return table;
 }
@@ -149,7 +149,7 @@ Cell_table cell_table_of(const Snapshot<D>& snapshot, std::span<const Cell> cell
   });
   Row_writer writer(table, cells.size(), numbers_of_cell);
   for (const Cell cell : cells)
-    writer.write(mean_of(snapshot, cell), std::array{static_cast<std::int32_t>(snapshot.index(cell))},
+    writer.write(centroid(snapshot, cell), std::array{static_cast<std::int32_t>(snapshot.index(cell))},
                  snapshot.view(cell).vertices, snapshot.is_solid(cell));
   return table;
 }

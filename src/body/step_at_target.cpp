@@ -15,7 +15,7 @@ namespace cellwalk::detail {
 template <int D>
 [[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, bool reports_blocked,
                                                  Step_report<D>& report) {
-  find_out_if_apart();
+  update_is_apart();
   const bool in_place = may_be_in_place(body_, sweep_, body_.is_apart);
   for (std::uint32_t v = 0; v < targets.size(); ++v) {
     if (body_.try_move_in_region(v, targets[v], counts_)) continue;
@@ -94,7 +94,7 @@ Contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const 
 
 /// Finds out whether the body is apart from all walls, where that matters and is not known.
 template <int D>
-void Target_step<D>::find_out_if_apart() {
+void Target_step<D>::update_is_apart() {
   if (sweep_.touch == Touch::pass)
     body_.is_apart = false;  // what moves now may touch
   else if (body_.region.holds_body())
@@ -126,7 +126,7 @@ Tried_move<D> Target_step<D>::try_to_move(std::uint32_t vertex, const Point<D>& 
   Particle<D> to;
   bool had_choice = false;
   Tried_move<D> tried = try_on_sides(vertex, target, settled, nullptr, to, had_choice);
-  if (tried.hindrance() != 0 && had_choice && !tried.answer.is_vertex_blocked && sweep_.touch == Touch::pass)
+  if (tried.severity() != 0 && had_choice && !tried.answer.is_vertex_blocked && sweep_.touch == Touch::pass)
       [[unlikely]]
     tried = try_on_all_sides(vertex, target, to);
   if (tried.answer.stays()) return tried;
@@ -144,8 +144,8 @@ Tried_move<D> Target_step<D>::try_on_all_sides(std::uint32_t vertex, const Point
   bool had_choice = false;
   for (int tries = 0; tries < most_side_tries; ++tries) {
     Tried_move<D> tried = try_on_sides(vertex, target, {}, &choices, to, had_choice);
-    if (tried.hindrance() == 0) return tried;
-    if (!tried.answer.is_vertex_blocked && (!best || tried.hindrance() < best->hindrance())) {
+    if (tried.severity() == 0) return tried;
+    if (!tried.answer.is_vertex_blocked && (!best || tried.severity() < best->severity())) {
       best = std::move(tried);
       best_choices = choices;
     }

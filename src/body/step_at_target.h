@@ -24,7 +24,7 @@ struct Tried_move {
   std::optional<Contact<D>> met;
 
   /// 0 if nothing was met, 1 if the vertex moves all the same, 2 if it stays.
-  int hindrance() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
+  int severity() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
   /// Keeps the first wall. True if there is one.
   bool keep_met(const std::optional<Contact<D>>& wall) {
     if (wall && !met && !answer.contact) met = wall;
@@ -49,7 +49,7 @@ class Target_step {
   std::uint64_t signs() const { return counts_.edges.walk.predicates.orientations; }
   bool sweeps() const { return sweep_.sweep != Sweep::three_segments; }
 
-  void find_out_if_apart();
+  void update_is_apart();
   bool touches_wall();
   Tried_move<D> try_to_move(std::uint32_t vertex, const Point<D>& target, const Settled_move<D>& settled);
   Tried_move<D> try_on_all_sides(std::uint32_t vertex, const Point<D>& target, Particle<D>& to);

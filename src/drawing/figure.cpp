@@ -11,7 +11,7 @@
 namespace cellwalk::drawing {
 namespace {
 
-constexpr Colour white{1, 1, 1}, ink{0.10, 0.12, 0.15};
+constexpr Colour white{1, 1, 1}, line_ink{0.10, 0.12, 0.15};
 // Pixels.
 constexpr int margin = 14, title_height = 40, legend_row_height = 34, swatch_width = 46;
 constexpr double title_size = 16, label_size = 15, legend_text_size = 13;
@@ -36,7 +36,7 @@ void write_over(Image& image, const std::string& text, double x, double y) {
     const double angle = circle * i / halo_directions;
     draw_text(image, text, x + halo * std::cos(angle), y + halo * std::sin(angle), label_size, white);
   }
-  draw_text(image, text, x, y, label_size, ink);
+  draw_text(image, text, x, y, label_size, line_ink);
 }
 
 void paste(Image& figure, const Image& panel, int x, int y) {
@@ -103,7 +103,7 @@ Image make_figure(std::span<const Panel> panels, std::span<const Legend_entry> l
   for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
     const Panel& panel = panels[static_cast<std::size_t>(i)];
     const int x = margin + (i % columns) * (options.panel_width + margin), y = (i / columns) * row_height;
-    draw_text(figure, panel.title, x + margin, y + 0.75 * title_height, title_size, ink);
+    draw_text(figure, panel.title, x + margin, y + 0.75 * title_height, title_size, line_ink);
     paste(figure, draw(panel, options), x, y + title_height);
   }
   for (int i = 0; i < static_cast<int>(legend.size()); ++i) {
@@ -112,7 +112,7 @@ Image make_figure(std::span<const Panel> panels, std::span<const Legend_entry> l
     const int y =
         rows * row_height + margin + (i / legend_columns) * legend_row_height + legend_row_height / 2;
     draw_swatch(figure, entry, x, y);
-    draw_text(figure, entry.text, x + swatch_width, y + legend_text_size / 2, legend_text_size, ink);
+    draw_text(figure, entry.text, x + swatch_width, y + legend_text_size / 2, legend_text_size, line_ink);
   }
   return figure;
 }

@@ -8,7 +8,7 @@ using detail::is_in_front;
 using detail::is_in_shape;
 
 template <int D>
-Point<D> mean_of(const Snapshot<D>& snapshot, Half_facet facet) {
+Point<D> centroid(const Snapshot<D>& snapshot, Half_facet facet) {
   const Cell own = snapshot.cell_of(facet);
   const Cell_view<D> cell = snapshot.view(own);
   Vector<D> sum{};
@@ -18,7 +18,7 @@ Point<D> mean_of(const Snapshot<D>& snapshot, Half_facet facet) {
 }
 
 template <int D>
-Point<D> mean_of(const Snapshot<D>& snapshot, Cell cell) {
+Point<D> centroid(const Snapshot<D>& snapshot, Cell cell) {
   const Cell_view<D> view = snapshot.view(cell);
   Vector<D> sum{};
   for (std::size_t v = 0; v < view.vertex_count(); ++v) sum = sum + (view.point(v) - Point<D>{});
@@ -31,15 +31,15 @@ Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell cell = snapshot.cell(i);
     if (cell == Cell::none) continue;
-    const Point<D> mean = mean_of(snapshot, cell);
+    const Point<D> mean = centroid(snapshot, cell);
     const bool is_front = part.plane && is_in_front(*part.plane, mean);
     if (is_in_shape(part, mean) && (!part.plane || is_front)) result.cells.push_back(cell);
     for (std::size_t f = 0; f < snapshot.facet_count(cell); ++f) {
       const Half_facet facet = snapshot.half_facet(cell, f);
       const Cell other = snapshot.neighbour(facet);
       if (other == Cell::none || snapshot.index(other) < i) continue;
-      if (!is_in_shape(part, mean_of(snapshot, facet))) continue;
-      if (part.plane && is_front == is_in_front(*part.plane, mean_of(snapshot, other))) continue;
+      if (!is_in_shape(part, centroid(snapshot, facet))) continue;
+      if (part.plane && is_front == is_in_front(*part.plane, centroid(snapshot, other))) continue;
       result.facets.push_back(facet);
     }
   }
@@ -48,9 +48,9 @@ Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part
 
 template Selection<2> select(const Snapshot<2>&, const Environment_part<2>&);
 template Selection<3> select(const Snapshot<3>&, const Environment_part<3>&);
-template Point<2> mean_of(const Snapshot<2>&, Half_facet);
-template Point<3> mean_of(const Snapshot<3>&, Half_facet);
-template Point<2> mean_of(const Snapshot<2>&, Cell);
-template Point<3> mean_of(const Snapshot<3>&, Cell);
+template Point<2> centroid(const Snapshot<2>&, Half_facet);
+template Point<3> centroid(const Snapshot<3>&, Half_facet);
+template Point<2> centroid(const Snapshot<2>&, Cell);
+template Point<3> centroid(const Snapshot<3>&, Cell);
 
 }  // namespace cellwalk

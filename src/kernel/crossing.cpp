@@ -115,7 +115,7 @@ Fraction exact_coordinate(double from, double to, const Fraction& time) {
 
 /// The crossing_time(), given what is known of it.
 template <int D>
-double rounded_time(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
+double rounded_time_of(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
   if (const auto rounded = certain_time(crossing, time)) return *rounded;
   const auto [at_a, at_b] = exact_orientations(crossing);
   if (at_a == at_b) return 0;
@@ -209,13 +209,13 @@ Exact_time to_time(const Crossing<D>& crossing) {
 
 template <int D>
 double crossing_time(const Crossing<D>& crossing) {
-  return rounded_time(crossing, bounded_time(crossing));
+  return rounded_time_of(crossing, bounded_time(crossing));
 }
 
 template <int D>
 Timed_point<D> timed_point(const Crossing<D>& crossing) {
   const auto time = bounded_time(crossing);
-  Timed_point<D> result{rounded_time(crossing, time), crossing.a};
+  Timed_point<D> result{rounded_time_of(crossing, time), crossing.a};
   if (result.time == 0) return result;
   std::optional<Fraction> exact;
   for (std::size_t k = 0; k < D; ++k) {

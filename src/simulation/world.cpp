@@ -159,13 +159,13 @@ Body_counts World<D>::body_counts() const {
 template <int D>
 Walk_counts World<D>::counts() const {
   Walk_counts sum = counts_;
-  for (const Walk_counts& more : counts_elsewhere_) sum += more;
+  for (const Walk_counts& more : remote_counts_) sum += more;
   return sum;
 }
 
 template <int D>
 Body_counts World<D>::body_counts(std::size_t body) const {
-  if (is_elsewhere(body)) return elsewhere_[body]->counts;
+  if (is_remote(body)) return remote_bodies_[body]->counts;
   return body < body_steps_.size() ? body_steps_[body].counts : Body_counts{};  // empty before the first step
 }
 

@@ -42,29 +42,29 @@ World_part<D>::World_part(World<D>& world, std::size_t number, std::size_t count
   for (std::uint32_t b = first_body(world, number, count); b < end; ++b) world.own_bodies_.push_back(b);
   if (number == 0 && world.catheter() != nullptr)
     world.own_bodies_.push_back(static_cast<std::uint32_t>(world.bodies_.size() - 1));
-  world.elsewhere_.resize(world.bodies_.size());
+  world.remote_bodies_.resize(world.bodies_.size());
   for (std::size_t b = 0; b < world.bodies_.size(); ++b) {
     const auto positions = world.bodies_[b].body().positions();
     const bool is_own = std::ranges::binary_search(world.own_bodies_, static_cast<std::uint32_t>(b));
     if (is_own) continue;
-    auto& stand_in = world.elsewhere_[b].emplace();
-    stand_in.positions.assign(positions.begin(), positions.end());
+    auto& remote = world.remote_bodies_[b].emplace();
+    remote.positions.assign(positions.begin(), positions.end());
     for (std::uint32_t v = 0; v < positions.size(); ++v)
-      stand_in.cells.push_back(world.snapshot_->index(world.bodies_[b].body().cell_of(v)));
+      remote.cells.push_back(world.snapshot_->index(world.bodies_[b].body().cell_of(v)));
   }
-  world.counts_elsewhere_.resize(count);
+  world.remote_counts_.resize(count);
   if (number > 0) world.counts_ = {};  // those of placing all are counted by the first part
 }
 
 template <int D>
-std::string World_part<D>::tell(const Told& what) const {
+std::string World_part<D>::state_of_part(const State_request& request) const {
   detail::Byte_writer out;
-  if (what.contacts)
+  if (request.contacts)
     out(world_.contacts_);
   else
     out(std::vector<Run_contact<D>>());
-  out(what.states);
-  if (!what.states) return out.message();
+  out(request.states);
+  if (!request.states) return out.message();
   const auto [begin, end] = world_.own_particles_;
   const auto own = [begin = begin, end = end](const auto& all) {
     return std::vector(all.begin() + begin, all.begin() + end);
@@ -80,8 +80,8 @@ std::string World_part<D>::tell(const Told& what) const {
 }
 
 template <int D>
-void World_part<D>::take_over(std::string_view told) {
-  detail::Byte_reader in(told);
+void World_part<D>::take_over(std::string_view state) {
+  detail::Byte_reader in(state);
   for (const auto& met : in.next<std::vector<Run_contact<D>>>()) world_.contacts_.push_back(met);
   if (!in.next<bool>()) return;
   const auto part = in.next<std::size_t>();
@@ -89,16 +89,16 @@ void World_part<D>::take_over(std::string_view told) {
   const auto particles = in.next<std::vector<Particle<D>>>();
   const auto velocities = in.next<std::vector<Vector<D>>>();
   if (begin > world_.particles_.size() || particles.size() > world_.particles_.size() - begin ||
-      velocities.size() != particles.size() || part >= world_.counts_elsewhere_.size())
+      velocities.size() != particles.size() || part >= world_.remote_counts_.size())
     throw Error(Error_code::other, "particles of another process are not those of this scene");
   std::ranges::copy(particles, world_.particles_.begin() + begin);
   std::ranges::copy(velocities, world_.velocities_.begin() + begin);
-  in(world_.counts_elsewhere_[part]);
+  in(world_.remote_counts_[part]);
   for (const auto b : in.next<std::vector<std::uint32_t>>()) {
-    if (b >= world_.elsewhere_.size() || !world_.elsewhere_[b])
+    if (b >= world_.remote_bodies_.size() || !world_.remote_bodies_[b])
       throw Error(Error_code::other, "bodies of another process are not those of this scene");
-    auto& stand_in = *world_.elsewhere_[b];
-    in(stand_in.positions, stand_in.cells, stand_in.counts, stand_in.has_arrived);
+    auto& remote = *world_.remote_bodies_[b];
+    in(remote.positions, remote.cells, remote.counts, remote.has_arrived);
   }
 }
 

@@ -239,6 +239,13 @@ class Planted(unittest.TestCase):
         self.write("tests/walk/wide.cpp", f"{SPDX}{widest}\n{widest}x\n")
         self.assert_caught("tests/walk/wide.cpp:3", f"has {check_layers.MAX_COLUMNS + 1} columns")
 
+    def test_words_that_were_given_up(self):
+        for word in check_layers.GIVEN_UP:
+            self.write("tests/walk/words.cpp", f"{SPDX}// {word}: again\n// {word}s and un{word} are other words\n")
+            self.assert_caught("tests/walk/words.cpp:2", f"{word} was given up")
+            self.write("tests/walk/words.cpp", f"{SPDX}// {word}s and un{word} are other words\n")
+            self.assertEqual(self.check(), [])
+
     def test_what_clang_cannot_compile(self):
         for call in ("std::ranges::unique(v)", "std::ranges::stable_partition(v, f)", "v | std::views::reverse"):
             self.write("tests/walk/order.cpp", f"{SPDX}auto r = {call};\nauto i = std::ranges::find(v, 1);\n")

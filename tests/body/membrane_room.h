@@ -29,7 +29,7 @@ inline Environment<3> with_membranes(const Point<3>& low, const Point<3>& high, 
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
     for (std::size_t k = 0; k < 6; ++k) {
       const Half_facet f = Snapshot<3>::half_facet(snapshot.cell(i), k);
-      const Point<3> x = mean_of(snapshot, f);
+      const Point<3> x = centroid(snapshot, f);
       bool is_inside = snapshot.neighbour(f) != Cell::none;
       for (std::size_t j = 0; j < 3; ++j) is_inside &= low[j] < x[j] && x[j] < high[j];
       if (is_inside) environment.set_impassable(f, true);

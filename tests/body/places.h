@@ -17,7 +17,7 @@ Half_facet facet_at(const Snapshot<D>& snapshot, const Point<D>& centre) {
     const Cell c = snapshot.cell(i);
     if (c == Cell::none) continue;
     for (std::size_t k = 0; k < snapshot.facet_count(c); ++k)
-      if (const Half_facet f = Snapshot<D>::half_facet(c, k); mean_of(snapshot, f) == centre) return f;
+      if (const Half_facet f = Snapshot<D>::half_facet(c, k); centroid(snapshot, f) == centre) return f;
   }
   ADD_FAILURE() << "no facet there";
   return Half_facet::none;

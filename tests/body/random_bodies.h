@@ -147,7 +147,7 @@ class Random_bodies {
   }
 
   /// Up to a size along each axis.
-  Vector<D> any_way(double size) {
+  Vector<D> any_path(double size) {
     Vector<D> way;
     for (double& x : way) x = size * (generic_ ? random().real(-1, 1) : eighths(8));
     return way;
@@ -161,7 +161,7 @@ class Random_bodies {
     const bool small = random().below(2) == 0;
     for (std::uint32_t v = 0; v <= D; ++v) {
       Point<D> x = v == 0 ? first : source_.target(of_start, first, first);
-      if (small && v > 0) x = first + any_way(cell_size() / 4);
+      if (small && v > 0) x = first + any_path(cell_size() / 4);
       soup.points.push_back(x);
       for (std::uint32_t w = v + 1; w <= D; ++w) soup.edges.push_back({v, w});
     }
@@ -197,13 +197,13 @@ class Random_bodies {
     Particle<D> p;
     while (p.cell == Cell::none) p = locator.particle_at(source_.start(kind())).value_or(Particle<D>{});
     const double spacing = cell_size() / static_cast<double>(4 << random().below(3));
-    Vector<D> way = any_way(spacing);
+    Vector<D> way = any_path(spacing);
     Walk_counts counts;
     for (std::uint32_t v = 0; v < most_of_rod; ++v) {
       soup.points.push_back(p.position);
       if (v > 0) soup.edges.push_back({v - 1, v});
       for (int tried = 0; tried < 20; ++tried) {
-        if (tried > 0 || random().below(8) == 0) way = any_way(spacing);
+        if (tried > 0 || random().below(8) == 0) way = any_path(spacing);
         if (way != Vector<D>{} && move(snapshot_, p, p.position + way, counts).status == Walk_status::arrived)
           break;
       }
@@ -239,7 +239,7 @@ class Random_bodies {
     }
     if (which == 3) {
       std::shift_left(result.begin(), result.end(), 1);
-      result.back() = result.back() + any_way(cell_size() / 4);
+      result.back() = result.back() + any_path(cell_size() / 4);
       return result;
     }
     for (Point<D>& x : result)

@@ -28,27 +28,28 @@ Snapshot<2> rooms_with_membrane() {
   return snapshot;
 }
 
-struct Told {
+struct Blocked_sets {
   bool is_vertex_blocked;
   std::uint64_t edges, swept_edges;
-  bool operator==(const Told&) const = default;
+  bool operator==(const Blocked_sets&) const = default;
 };
 /// Nothing is told of a move that meets nothing.
-constexpr Told nothing{false, 0, 0};
+constexpr Blocked_sets nothing{false, 0, 0};
 
 /// Moves vertex 0 of a body, all others of which stay; by both kinds of regions.
-Told told(const Snapshot<2>& snapshot, const Body_soup<2>& soup, const Point<2>& target, Sweep sweep,
-          Touch touch) {
+Blocked_sets blocked_sets(const Snapshot<2>& snapshot, const Body_soup<2>& soup, const Point<2>& target,
+                          Sweep sweep, Touch touch) {
   std::vector<Point<2>> targets = soup.points;
   targets[0] = target;
-  std::vector<Told> answers;
+  std::vector<Blocked_sets> answers;
   for (const bool clearance : {false, true}) {
     Body<2> body(snapshot, Locator<2>(snapshot), soup);
     Body_counts counts;
     const auto blocked = reject<2>(body, targets, rejecting(sweep, touch, clearance), counts).blocked;
     const auto first = std::ranges::find(blocked, 0u, &Rejected_move<2>::vertex);
-    answers.push_back(
-        first == blocked.end() ? nothing : Told{first->is_vertex_blocked, first->edges, first->swept_edges});
+    answers.push_back(first == blocked.end()
+                          ? nothing
+                          : Blocked_sets{first->is_vertex_blocked, first->edges, first->swept_edges});
     const bool stays = answers.back().is_vertex_blocked || answers.back().edges != 0;
     EXPECT_EQ(body.positions()[0], stays ? soup.points[0] : target);
     body.refresh(counts);
@@ -64,24 +65,25 @@ TEST(BodyReject, AlongAWall) {
     const std::uint64_t swept = sweep == Sweep::triangle;
     // A vertex in the line of the membrane, towards it and past it.
     const Body_soup<2> vertex{{{2.5, 2}}, {}, {}};
-    EXPECT_EQ(told(snapshot, vertex, {5.5, 2}, sweep, Touch::pass), nothing);
-    EXPECT_EQ(told(snapshot, vertex, {2.875, 2}, sweep, Touch::stop), nothing);
-    EXPECT_EQ(told(snapshot, vertex, {3, 2}, sweep, Touch::stop), (Told{true, 0, 0}));
-    EXPECT_EQ(told(snapshot, vertex, {5.5, 2}, sweep, Touch::stop), (Told{true, 0, 0}));
+    EXPECT_EQ(blocked_sets(snapshot, vertex, {5.5, 2}, sweep, Touch::pass), nothing);
+    EXPECT_EQ(blocked_sets(snapshot, vertex, {2.875, 2}, sweep, Touch::stop), nothing);
+    EXPECT_EQ(blocked_sets(snapshot, vertex, {3, 2}, sweep, Touch::stop), (Blocked_sets{true, 0, 0}));
+    EXPECT_EQ(blocked_sets(snapshot, vertex, {5.5, 2}, sweep, Touch::stop), (Blocked_sets{true, 0, 0}));
     // An edge in that line, which its vertex draws out over the membrane.
     const Body_soup<2> edge{{{2.5, 2}, {1.5, 2}}, {{0, 1}}, {}};
-    EXPECT_EQ(told(snapshot, edge, {5.5, 2}, sweep, Touch::pass), nothing);
-    EXPECT_EQ(told(snapshot, edge, {5.5, 2}, sweep, Touch::stop), (Told{true, 0, 0}));
+    EXPECT_EQ(blocked_sets(snapshot, edge, {5.5, 2}, sweep, Touch::pass), nothing);
+    EXPECT_EQ(blocked_sets(snapshot, edge, {5.5, 2}, sweep, Touch::stop), (Blocked_sets{true, 0, 0}));
     // One that the vertex, past its end, lays on the membrane.
     const Body_soup<2> laid{{{5.5, 2.5}, {2.5, 2}}, {{0, 1}}, {}};
-    EXPECT_EQ(told(snapshot, laid, {5.5, 2}, sweep, Touch::pass), nothing);
-    EXPECT_EQ(told(snapshot, laid, {5.5, 2}, sweep, Touch::stop), (Told{false, 1, swept}));
+    EXPECT_EQ(blocked_sets(snapshot, laid, {5.5, 2}, sweep, Touch::pass), nothing);
+    EXPECT_EQ(blocked_sets(snapshot, laid, {5.5, 2}, sweep, Touch::stop), (Blocked_sets{false, 1, swept}));
     // One on the membrane, on its upper side, goes along it and off it, but not through.
     const Body_soup<2> above{{{4.25, 2}, {3.25, 2}, {3.5, 2.5}}, {{0, 1}, {0, 2}, {1, 2}}, {}};
-    EXPECT_EQ(told(snapshot, above, {4.5, 2}, sweep, Touch::pass), nothing);
-    EXPECT_EQ(told(snapshot, above, {4.5, 2.5}, sweep, Touch::pass), nothing);
-    EXPECT_TRUE(told(snapshot, above, {4.5, 1.5}, sweep, Touch::pass).is_vertex_blocked);
-    EXPECT_TRUE(told(snapshot, above, {4.5, 2.5}, sweep, Touch::stop).is_vertex_blocked) << "it is at a wall";
+    EXPECT_EQ(blocked_sets(snapshot, above, {4.5, 2}, sweep, Touch::pass), nothing);
+    EXPECT_EQ(blocked_sets(snapshot, above, {4.5, 2.5}, sweep, Touch::pass), nothing);
+    EXPECT_TRUE(blocked_sets(snapshot, above, {4.5, 1.5}, sweep, Touch::pass).is_vertex_blocked);
+    EXPECT_TRUE(blocked_sets(snapshot, above, {4.5, 2.5}, sweep, Touch::stop).is_vertex_blocked)
+        << "it is at a wall";
   }
 }
 
@@ -90,9 +92,9 @@ TEST(BodyReject, EdgesThatTouchStay) {
   // The edge ends on the floor: free to move where that is passed, held where it is a touch.
   const Body_soup<2> soup{{{1.5, 1.5}, {1.5, 0}}, {{0, 1}}, {}};
   for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
-    EXPECT_EQ(told(snapshot, soup, {1.75, 1.5}, sweep, Touch::pass), nothing);
-    EXPECT_EQ(told(snapshot, soup, {1.75, 1.5}, sweep, Touch::stop),
-              (Told{false, 1, std::uint64_t{sweep == Sweep::triangle}}));
+    EXPECT_EQ(blocked_sets(snapshot, soup, {1.75, 1.5}, sweep, Touch::pass), nothing);
+    EXPECT_EQ(blocked_sets(snapshot, soup, {1.75, 1.5}, sweep, Touch::stop),
+              (Blocked_sets{false, 1, std::uint64_t{sweep == Sweep::triangle}}));
   }
 }
 
@@ -105,8 +107,8 @@ TEST(BodyReject, EdgesThatGoRoundAreToldAndMove) {
   for (const Touch touch : {Touch::pass, Touch::stop})
     for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle, Sweep::faces}) {
       const std::uint64_t swept = sweep != Sweep::three_segments;
-      EXPECT_EQ(told(snapshot, round, {5.5, 1.5}, sweep, touch), (Told{false, 0, swept}));
-      EXPECT_EQ(told(snapshot, below, {2.5, 3.5}, sweep, touch), (Told{false, 1, swept}));
+      EXPECT_EQ(blocked_sets(snapshot, round, {5.5, 1.5}, sweep, touch), (Blocked_sets{false, 0, swept}));
+      EXPECT_EQ(blocked_sets(snapshot, below, {2.5, 3.5}, sweep, touch), (Blocked_sets{false, 1, swept}));
       Body<2> body(snapshot, Locator<2>(snapshot), below);
       Body_counts counts;
       const auto [contacts, blocked] =

@@ -36,13 +36,13 @@ class Restated_body {
 
   Rejected_move<D> move_or_stay(std::uint32_t vertex, const Point<D>& target, Sweep sweep) {
     Tried tried = try_on_sides(vertex, target, sweep, nullptr);
-    if (tried.hindrance() != 0 && tried.had_choice && !tried.answer.is_vertex_blocked) {
+    if (tried.severity() != 0 && tried.had_choice && !tried.answer.is_vertex_blocked) {
       std::optional<Tried> best;
       detail::Sides_taken choices;
       do {
         tried = try_on_sides(vertex, target, sweep, &choices);
-        if (!tried.answer.is_vertex_blocked && (!best || tried.hindrance() < best->hindrance())) best = tried;
-      } while ((!best || best->hindrance() != 0) && detail::take_next_sides(choices));
+        if (!tried.answer.is_vertex_blocked && (!best || tried.severity() < best->severity())) best = tried;
+      } while ((!best || best->severity() != 0) && detail::take_next_sides(choices));
       tried = *best;
     }
     if (tried.answer.stays()) return tried.answer;
@@ -64,7 +64,7 @@ class Restated_body {
     std::vector<std::pair<std::size_t, Chain>> chains;
     bool had_choice = false;
 
-    int hindrance() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
+    int severity() const { return answer.stays() ? 2 : answer.swept_edges != 0 ? 1 : 0; }
   };
 
   /// The move on given sides of walls or, without, on those that the vertex prefers.

@@ -76,7 +76,7 @@ void close(Environment<3>& environment, const std::set<std::array<double, 3>>& c
   for (std::size_t i = 0; i < snapshot.cell_slots(); ++i)
     for (std::size_t k = 0; k < snapshot.facet_count(snapshot.cell(i)); ++k) {
       const Half_facet f = Snapshot<3>::half_facet(snapshot.cell(i), k);
-      const Point<3> x = mean_of(snapshot, f);
+      const Point<3> x = centroid(snapshot, f);
       if (snapshot.is_impassable(f) || !centres.contains({x[0], x[1], x[2]})) continue;
       environment.set_impassable(f, true);
       ++closed;

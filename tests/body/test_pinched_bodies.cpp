@@ -24,7 +24,7 @@ Environment<3> with_walls(const std::vector<Point<3>>& centres) {
     for (std::size_t k = 0; k < 6; ++k) {
       const Half_facet f = Snapshot<3>::half_facet(snapshot.cell(i), k);
       if (snapshot.neighbour(f) == Cell::none || snapshot.is_impassable(f)) continue;
-      if (std::find(centres.begin(), centres.end(), mean_of(snapshot, f)) == centres.end()) continue;
+      if (std::find(centres.begin(), centres.end(), centroid(snapshot, f)) == centres.end()) continue;
       environment.set_impassable(f, true);
       ++made;
     }

@@ -132,15 +132,15 @@ TEST(Groups, KeepThePartsOfWhatIsSplit) {
     const Cell_view<3> view = snapshot.view(c);
     const Point<3>& o = view.point(0);
     volume += std::abs(dot(view.point(1) - o, cross(view.point(2) - o, view.point(3) - o))) / 6;
-    EXPECT_GT(mean_of(snapshot, c)[0], 1);
+    EXPECT_GT(centroid(snapshot, c)[0], 1);
   }
   EXPECT_DOUBLE_EQ(volume, 1);
   ASSERT_EQ(found.at("between").facets.size(), 2u);
-  for (const Half_facet f : found.at("between").facets) EXPECT_EQ(mean_of(snapshot, f)[0], 1);
+  for (const Half_facet f : found.at("between").facets) EXPECT_EQ(centroid(snapshot, f)[0], 1);
   ASSERT_EQ(found.at("top").facets.size(), 2u);
   for (const Half_facet f : found.at("top").facets) {
-    EXPECT_EQ(mean_of(snapshot, f)[2], 1);
-    EXPECT_LT(mean_of(snapshot, f)[0], 1);
+    EXPECT_EQ(centroid(snapshot, f)[2], 1);
+    EXPECT_LT(centroid(snapshot, f)[0], 1);
     EXPECT_EQ(snapshot.neighbour(f), Cell::none);
   }
 }
@@ -215,7 +215,7 @@ TEST(Groups, LastAsLongAsTheirCells) {
   int reused = 0;
   for (int round = 0; round < 4; ++round) {  // names of cells that are gone are used again
     const Cell cell = snapshot.cell(3);
-    environment.insert_point(cell, mean_of(snapshot, cell));
+    environment.insert_point(cell, centroid(snapshot, cell));
     const auto left = count();
     EXPECT_EQ(left.first + 1, all.first);
     EXPECT_EQ(left.second, all.second) << "other cells have the facets of those that were replaced";
@@ -237,7 +237,7 @@ TEST(Groups, OutlastNamesOfMoreFacets) {
   const Lasting_groups<3> lasting(snapshot, groups);
   const auto places = places_of(snapshot, groups["facets"].facets);
   for (std::size_t i = 0; i < 3; ++i) {
-    environment.insert_point(snapshot.cell(i), mean_of(snapshot, snapshot.cell(i)));
+    environment.insert_point(snapshot.cell(i), centroid(snapshot, snapshot.cell(i)));
     EXPECT_EQ(places_of(snapshot, lasting.now(snapshot).at("facets").facets), places);
     EXPECT_EQ(lasting.now(snapshot).at("facets").facets.size(), 6u);
   }
@@ -261,7 +261,7 @@ TEST(Groups, SeeFacetsFromTheLowerCellAgain) {
   for (const std::size_t i : {0, 1, 2})  // numbers that are free then
     detail::Cell_patcher<3>(environment)
         .replace(std::array{snapshot.cell(i)}, none, detail::glue_patch(none));
-  environment.insert_point(snapshot.cell(last), mean_of(snapshot, snapshot.cell(last)));
+  environment.insert_point(snapshot.cell(last), centroid(snapshot, snapshot.cell(last)));
   const Groups<3> now = lasting.now(snapshot);
   EXPECT_EQ(places_of(snapshot, now.at("facets").facets), places);
   EXPECT_NE(now.at("facets").facets, groups["facets"].facets);

@@ -66,21 +66,21 @@ TEST(Select, FacetsBetweenTheSidesOfAPlane) {
 TEST(Select, MeansOfCellsAndFacets) {
   const auto plane = unit_squares();
   const Snapshot<2>& snapshot = plane.snapshot();
-  EXPECT_EQ(mean_of(snapshot, snapshot.cell(5)), (Point<2>{1.5, 1.5}));
+  EXPECT_EQ(centroid(snapshot, snapshot.cell(5)), (Point<2>{1.5, 1.5}));
   std::vector<Point<2>> means;
   for (std::size_t f = 0; f < 4; ++f)
-    means.push_back(mean_of(snapshot, Snapshot<2>::half_facet(snapshot.cell(5), f)));
+    means.push_back(centroid(snapshot, Snapshot<2>::half_facet(snapshot.cell(5), f)));
   std::sort(means.begin(), means.end());
   EXPECT_EQ(means, (std::vector<Point<2>>{{1, 1.5}, {1.5, 1}, {1.5, 2}, {2, 1.5}}));
 
   const auto space = Environment<3>::build(hex_grid({.cells = {2, 1, 1}}));
-  EXPECT_EQ(mean_of(space.snapshot(), space.snapshot().cell(1)), (Point<3>{1.5, 0.5, 0.5}));
+  EXPECT_EQ(centroid(space.snapshot(), space.snapshot().cell(1)), (Point<3>{1.5, 0.5, 0.5}));
   Environment_part<3> part;
   part.shape = Scene_box<3>{{1, 0, 0}, {1, 1, 1}};
   const Selection<3> between = select(space.snapshot(), part);
   ASSERT_EQ(between.facets.size(), 1u);
   EXPECT_TRUE(between.cells.empty());
-  EXPECT_EQ(mean_of(space.snapshot(), between.facets[0]), (Point<3>{1, 0.5, 0.5}));
+  EXPECT_EQ(centroid(space.snapshot(), between.facets[0]), (Point<3>{1, 0.5, 0.5}));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ std::uint32_t point_at(const Environment<D>& environment, const Point<D>& x) {
 
 /// The mean of the corners of a cell, rounded.
 template <int D>
-Point<D> centroid(const Snapshot<D>& snapshot, Cell cell) {
+Point<D> middle_of(const Snapshot<D>& snapshot, Cell cell) {
   const Cell_view<D> view = snapshot.view(cell);
   Point<D> sum{};
   for (std::size_t v = 0; v < view.vertex_count(); ++v) sum = sum + view.point(v);

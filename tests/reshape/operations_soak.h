@@ -43,7 +43,8 @@ struct Operation_tally {
       std::printf("%s %llu/%llu, ", replacements.names[k], number(replacements.made[k]),
                   number(replacements.tried[k]));
     std::printf(
-        "relax %llu/%llu, close and fill %d/%d, open %d, excavate %d, peel %llu/%llu, merge %llu/%llu (%llu "
+        "relax %llu/%llu, close and fill %d/%d, open %d, excavate %d, split_vertex %llu/%llu, merge "
+        "%llu/%llu (%llu "
         "held), cut %llu (%llu edges "
         "split, %llu vertices parted, %llu held, %llu facets slit), move %llu/%llu (%llu contacts)\n",
         number(improvements), number(relaxations), closings.made, closings.changes, growths.opened,
@@ -115,7 +116,7 @@ class Operations {
       case 7:
         return relax(reshaping), "relax";
       case 8:
-        return peel(reshaping), "peel";
+        return split_vertex(reshaping), "split_vertex";
       case 9:
         return cut(reshaping), "cut";
       case 10:
@@ -168,7 +169,7 @@ class Operations {
   }
 
   /// Solid cells at a vertex, in front of it along some direction or all.
-  void peel(Reshaping<D>& reshaping) {
+  void split_vertex(Reshaping<D>& reshaping) {
     std::vector<Cell> solid;
     for (int tries = 0; tries < 50 && solid.empty(); ++tries)
       if (const Cell c = world_.cell(); snapshot_.is_solid(c)) solid = {c};
@@ -187,7 +188,7 @@ class Operations {
           solid.push_back(other);
       }
     Vector<D> into{};
-    for (const Cell c : solid) into = into + (centroid(snapshot_, c) - from);
+    for (const Cell c : solid) into = into + (middle_of(snapshot_, c) - from);
     Point<D> target = from + (random_.real(0, 1) / static_cast<double>(solid.size())) * into;
     if (random_.chance(0.1)) target = from;
     const bool expected = Replacement_judge<D>(snapshot_).may_be_taken_back(vertex, solid, target);
@@ -266,7 +267,7 @@ class Operations {
 
   void cut(Reshaping<D>& reshaping) {
     if (snapshot_.cell_count() > most_cells) return;
-    const Point<D> middle = centroid(snapshot_, world_.cell());
+    const Point<D> middle = middle_of(snapshot_, world_.cell());
     std::vector<Point<D>> points(D + random_.below(2), middle);
     for (Point<D>& x : points)
       for (double& c : x) {

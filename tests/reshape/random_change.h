@@ -17,9 +17,9 @@ namespace cellwalk::test {
 /// One change, described before it is made, so that it can be tried again.
 template <int D>
 struct Random_change {
-  static constexpr std::array names{"open",       "close", "excavate",     "fill",        "flip",
-                                    "split_edge", "peel",  "remove_edge",  "collapse",    "merge",
-                                    "move",       "ask",   "insert_point", "split beside"};
+  static constexpr std::array names{"open",       "close",        "excavate",     "fill",        "flip",
+                                    "split_edge", "split_vertex", "remove_edge",  "collapse",    "merge",
+                                    "move",       "ask",          "insert_point", "split beside"};
   std::size_t kind = 0;
   Cell cell = Cell::none;
   Half_facet facet = Half_facet::none;
@@ -43,9 +43,9 @@ struct Random_change {
     v = vertices[(first + 1 + random.below(D)) % (D + 1)];
     const Point<D>&x = s.point(u), &y = s.point(v);
     target = x + 0.5 * (y - x);
-    if (kind == 6 || (kind == 12 && random.chance(0.7)) || random.chance(0.2)) target = centroid(s, cell);
+    if (kind == 6 || (kind == 12 && random.chance(0.7)) || random.chance(0.2)) target = middle_of(s, cell);
     if (kind == 10 || kind == 11) target = x + (0.25 * static_cast<double>(random.below(5))) * (target - x);
-    if (kind == 13) target = target + 0.0625 * (centroid(s, cell) - target);
+    if (kind == 13) target = target + 0.0625 * (middle_of(s, cell) - target);
   }
 
   bool make(Reshaping<D>& by) const {

@@ -254,7 +254,7 @@ TEST(CutShapes, PutCellsThatTheyPassAllAroundBehind) {
       if (!corners.contains(end)) continue;
       ++found;
       const std::set<std::uint32_t> before(view.vertices.begin(), view.vertices.end());
-      const Point<2> middle = test::centroid(snapshot, snapshot.cell(i));
+      const Point<2> middle = test::middle_of(snapshot, snapshot.cell(i));
       std::vector<Point<2>> points{{3, 7}, {3, 2}, end};
       if (is_reversed) std::reverse(points.begin(), points.end());
       const Cut_report report = sound_cut<2>(environment, test::blade<2>(points), 0.05);
@@ -328,7 +328,7 @@ TEST(CutShapes, LeaveEdgesBetweenTwoFreeCornersWhole) {
   const Snapshot<3>& snapshot = environment.snapshot();
   auto particles = Locator<3>(snapshot).particles_at({1, 1, 0.25});
   ASSERT_EQ(particles.size(), 2u);
-  const auto corner = [&](const Particle<3>& p) { return test::centroid(snapshot, p.cell)[0] > 1; };
+  const auto corner = [&](const Particle<3>& p) { return test::middle_of(snapshot, p.cell)[0] > 1; };
   const std::vector<bool> before{corner(particles[0]), corner(particles[1])};
   EXPECT_NE(before[0], before[1]);
   Reshaping<3> reshaping(environment, {{}, {std::span(particles)}});

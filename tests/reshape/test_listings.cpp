@@ -28,7 +28,7 @@ Cell_soup<D> walled_grid(Random& random) {
   const Snapshot<D>& s = environment.snapshot();
   const double walls = random.real(0, 0.1);
   for (std::size_t i = 0; i < s.cell_slots(); ++i) {
-    const bool is_low = test::centroid(s, s.cell(i))[D - 1] < 1;
+    const bool is_low = test::middle_of(s, s.cell(i))[D - 1] < 1;
     if (is_low && random.chance(0.7)) environment.fill(s.cell(i));
     for (std::size_t k = 0; k <= D; ++k)
       if (random.chance(walls)) environment.set_impassable(Snapshot<D>::half_facet(s.cell(i), k), true);

@@ -102,7 +102,7 @@ TEST(Merge, IsRefusedWhileSomethingLiesInTheGap) {
         stitches(reshaping.cut(blade<3>({{2.4, 0.6, 4.6}, {2.6, 4.4, 4.6}, {2.6, 4.4, 1.6}, {2.4, 0.6, 1.6}}),
                                {.opening = 0.05}))[0];
   }
-  const Point<3> inside = test::centroid(snapshot, gap_of(environment, pair).front());
+  const Point<3> inside = test::middle_of(snapshot, gap_of(environment, pair).front());
   Particle<3> particle = *Locator<3>(snapshot).particle_at(inside);
   {
     Reshaping<3> reshaping(environment, {{}, {std::span(&particle, 1)}});
@@ -165,7 +165,7 @@ TEST(Merge, IsRefusedForABodyWithFaces) {
   });
   ASSERT_NE(pair, pairs.end());
   // A triangle that hangs into the gap with one corner.
-  const Point<3> inside = test::centroid(snapshot, gap_of(environment, *pair).front());
+  const Point<3> inside = test::middle_of(snapshot, gap_of(environment, *pair).front());
   Body_soup<3> soup;
   soup.points = {inside, inside, inside};
   for (const std::size_t k : {1, 2}) soup.points[k][2] = 4.6;

@@ -30,12 +30,12 @@ struct Split {
     middle.fill(2);
     vertex = test::point_at<D>(environment, middle);
     for (const Cell c : environment.cells_around(vertex))
-      if (const Point<D> x = test::centroid(snapshot, c);
+      if (const Point<D> x = test::middle_of(snapshot, c);
           std::ranges::all_of(x, [](double y) { return y > 2; }))
         front.push_back(c);
     target = middle;
     for (const Cell c : front)
-      target = target + (0.1 / static_cast<double>(front.size())) * (test::centroid(snapshot, c) - middle);
+      target = target + (0.1 / static_cast<double>(front.size())) * (test::middle_of(snapshot, c) - middle);
   }
 
   std::string refusal(const std::vector<Cell>& cells) {
@@ -98,7 +98,7 @@ TEST(SplitVertex, RefusesWhatItCannotTake) {
   // Cells that meet in the vertex only have no target inside all of their facets.
   std::vector<Cell> apart = split.front;
   for (const Cell c : all)
-    if (const Point<3> x = test::centroid(split.environment.snapshot(), c); x[0] < 2 && x[1] < 2 && x[2] < 2)
+    if (const Point<3> x = test::middle_of(split.environment.snapshot(), c); x[0] < 2 && x[1] < 2 && x[2] < 2)
       apart.push_back(c);
   ASSERT_GT(apart.size(), split.front.size());
   EXPECT_FALSE(reshaping.split_vertex(split.vertex, apart, split.target).is_made);

@@ -242,7 +242,7 @@ void fill_behind_edges() {
         if (snapshot.is_impassable(f)) continue;
         const auto loop = snapshot.loop(f);
         const Point<D>&a = snapshot.point(loop[corner]), &b = snapshot.point(loop[(corner + 1) % D]);
-        const Point<D> inside = test::centroid(snapshot, cell);
+        const Point<D> inside = test::middle_of(snapshot, cell);
         Body<D> body = body_at<D>(environment, {inside, inside + 0.25 * (b - inside)});
         Body_counts counts;
         ASSERT_FALSE(body.move_vertex(0, a, {}, counts));
@@ -254,7 +254,7 @@ void fill_behind_edges() {
         const Cell now = body.particles()[0].cell;
         ASSERT_NE(now, cell);
         changed += body.chain(0).empty();
-        ASSERT_TRUE(reshaping.insert_point(now, test::centroid(snapshot, now)).is_made);
+        ASSERT_TRUE(reshaping.insert_point(now, test::middle_of(snapshot, now)).is_made);
         reshaping.finish();
         expect_sound(environment, body);
       }

@@ -48,7 +48,7 @@ bool is_edge_of_membrane_split(Environment<3>& environment, Body<3>& body) {
   const Snapshot<3>& snapshot = environment.snapshot();
   Reshaping<3> reshaping(environment, {{&body}, {}});
   const Cell cell = body.cell_of(0);
-  EXPECT_TRUE(reshaping.insert_point(cell, mean_of(snapshot, cell)).is_made)
+  EXPECT_TRUE(reshaping.insert_point(cell, middle_of(snapshot, cell)).is_made)
       << "by which the body is looked up";
   return reshaping
       .split_edge(point_at<3>(environment, {1, 1, 2}), point_at<3>(environment, {2, 2, 2}), {1.5, 1.5, 2})

@@ -86,7 +86,7 @@ void run_in_parts(const Snapshot<D>& snapshot, const Scene<D>& scene, const std:
   for (int step = 1; step <= steps; ++step) {
     world.step();
     for (World<D>& each : worlds) each.step();
-    for (std::size_t i = 1; i < count; ++i) parts[0].take_over(parts[i].tell({true, step % 8 == 0}));
+    for (std::size_t i = 1; i < count; ++i) parts[0].take_over(parts[i].state_of_part({true, step % 8 == 0}));
     parts[0].sort_contacts();
     expect_same_contacts(world, worlds[0]);
     if (step % 8 == 0) expect_same_states(world, worlds[0]);
@@ -95,7 +95,7 @@ void run_in_parts(const Snapshot<D>& snapshot, const Scene<D>& scene, const std:
   EXPECT_GT(contacts, 20u);
   world.validate();
   for (World<D>& each : worlds) each.validate();
-  for (std::size_t i = 1; i < count; ++i) parts[0].take_over(parts[i].tell({false, true}));
+  for (std::size_t i = 1; i < count; ++i) parts[0].take_over(parts[i].state_of_part({false, true}));
   expect_same_states(world, worlds[0]);
 }
 
@@ -130,7 +130,7 @@ TEST(WorldPart, BytesOfOtherScenesAreRefused) {
   const Body_soup<2> shape{{{0, 0}, {0.4, 0}}, {{0, 1}}, {}};
   World<2> world(snapshot, few, {shape}), other(snapshot, crowd<2>(), {shape, shape});
   World_part<2> part(world, 0, 2), second(other, 1, 2);
-  EXPECT_THROW(part.take_over(second.tell({false, true})), Error);
+  EXPECT_THROW(part.take_over(second.state_of_part({false, true})), Error);
   EXPECT_THROW(part.take_over("cut short"), Error);
 }
 

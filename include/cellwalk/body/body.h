@@ -51,7 +51,7 @@ class Body {
   /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the
   ///        face that a wall pierces, and where; Error(usage) naming an edge or a face that no Body_soup has;
   ///        Error(input) naming a vertex that is not finite
-  /// Cost: a location a vertex, a walk an edge, some us a face near walls.
+  /// Cost: one point location per vertex, one walk per edge, some us per face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Snapshot<D>&& snapshot, const Locator<D>& locator, const Body_soup<D>& soup) = delete;
   /// The same, with a locator of its own. For many bodies, share one: it is made from all cells.

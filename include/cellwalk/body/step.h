@@ -58,8 +58,8 @@ struct Body_options {
   /// By Step_rule::reject_at_target, report what blocks instead of contacts. This costs less, since the
   /// contact of an edge on its way is not located. Without effect by other rules.
   bool reports_blocked = false;
-  /// A vertex that slides goes on along walls until it met so many in a step. Less than 1 is 1: it stops at
-  /// the first.
+  /// A vertex that slides goes on along walls until it met this many in a step. Values below 1 count as 1: it
+  /// stops at the first.
   int most_contacts = 4;
 };
 

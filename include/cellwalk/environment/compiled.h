@@ -64,7 +64,7 @@ std::vector<std::byte> compile_to_bytes(const Environment<D>& environment, const
 /// and 30 by two.
 Any_compiled_environment open_compiled(Held_bytes image);
 
-/// The same of bytes anywhere, which are copied.
+/// As above, from a buffer that is copied.
 Any_compiled_environment open_compiled_copy(std::span<const std::byte> bytes);
 
 /// Tests that the certificates of all cells, their planes, are those that compiling gives.

@@ -55,18 +55,18 @@ class Lasting_groups {
 
   /// Their names, ascending.
   std::vector<std::string> names() const;
-  /// What is left of the groups, each of them, even if nothing is.
+  /// The current members of every group; empty groups included.
   Groups<D> now(const Snapshot<D>& snapshot) const;
 
  private:
   template <class Name>
-  struct Pointed {
+  struct With_points {
     Name name;
     std::vector<std::uint32_t> points;  ///< ascending
   };
   struct Group {
-    std::vector<Pointed<Half_facet>> facets;
-    std::vector<Pointed<Cell>> cells;
+    std::vector<With_points<Half_facet>> facets;
+    std::vector<With_points<Cell>> cells;
   };
   std::map<std::string, Group> groups_;
 };

@@ -27,16 +27,16 @@ Selection<D> select(const Snapshot<D>& snapshot, const Environment_part<D>& part
 /// The mean of the vertices of a facet or cell, rounded: the place that select() goes by.
 /// \pre it exists
 template <int D>
-Point<D> mean_of(const Snapshot<D>& snapshot, Half_facet facet);
+Point<D> centroid(const Snapshot<D>& snapshot, Half_facet facet);
 template <int D>
-Point<D> mean_of(const Snapshot<D>& snapshot, Cell cell);
+Point<D> centroid(const Snapshot<D>& snapshot, Cell cell);
 
 extern template Selection<2> select(const Snapshot<2>&, const Environment_part<2>&);
 extern template Selection<3> select(const Snapshot<3>&, const Environment_part<3>&);
-extern template Point<2> mean_of(const Snapshot<2>&, Half_facet);
-extern template Point<3> mean_of(const Snapshot<3>&, Half_facet);
-extern template Point<2> mean_of(const Snapshot<2>&, Cell);
-extern template Point<3> mean_of(const Snapshot<3>&, Cell);
+extern template Point<2> centroid(const Snapshot<2>&, Half_facet);
+extern template Point<3> centroid(const Snapshot<3>&, Half_facet);
+extern template Point<2> centroid(const Snapshot<2>&, Cell);
+extern template Point<3> centroid(const Snapshot<3>&, Cell);
 
 }  // namespace cellwalk
 

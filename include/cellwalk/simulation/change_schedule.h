@@ -59,7 +59,7 @@ class Change_schedule {
  private:
   /// A facet or a cell with its points, since a cut may give its name to another.
   template <class Name>
-  struct Pointed {
+  struct With_points {
     Name name;
     std::vector<std::uint32_t> points;
 
@@ -73,8 +73,8 @@ class Change_schedule {
     Change_kind kind = Change_kind::open;
     std::uint32_t step = 0, until = 0;
     // What is still to be changed.
-    std::vector<Pointed<Half_facet>> facets;
-    std::vector<Pointed<Cell>> cells;
+    std::vector<With_points<Half_facet>> facets;
+    std::vector<With_points<Cell>> cells;
     std::optional<Blade_stroke<D>> blade;
 
     std::optional<Environment_part<D>> suture;  // until it runs out

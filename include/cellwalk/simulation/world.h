@@ -95,18 +95,18 @@ class World {
   std::optional<std::size_t> entry_of(std::size_t body) const { return entry_of_[body]; }
   /// Where the vertices of a body are.
   std::span<const Point<D>> positions(std::size_t body) const {
-    return is_elsewhere(body) ? std::span<const Point<D>>(elsewhere_[body]->positions)
-                              : bodies_[body].body().positions();
+    return is_remote(body) ? std::span<const Point<D>>(remote_bodies_[body]->positions)
+                           : bodies_[body].body().positions();
   }
   /// The input index of the cell in which a vertex of a body is.
   /// Cost: that of Body::cell_of().
   std::uint32_t cell_of(std::size_t body, std::uint32_t vertex) const {
-    return is_elsewhere(body) ? elsewhere_[body]->cells[vertex]
-                              : snapshot_->index(bodies_[body].body().cell_of(vertex));
+    return is_remote(body) ? remote_bodies_[body]->cells[vertex]
+                           : snapshot_->index(bodies_[body].body().cell_of(vertex));
   }
   /// True for a body at the end of its path.
   bool has_arrived(std::size_t body) const {
-    return is_elsewhere(body) ? elsewhere_[body]->has_arrived : bodies_[body].has_arrived();
+    return is_remote(body) ? remote_bodies_[body]->has_arrived : bodies_[body].has_arrived();
   }
   /// The catheter; null if the scene has none.
   const Rod<D>* catheter() const;
@@ -138,7 +138,9 @@ class World {
   void step_bodies();
   void record_contacts(std::size_t particle);
 
-  bool is_elsewhere(std::size_t body) const { return !elsewhere_.empty() && elsewhere_[body].has_value(); }
+  bool is_remote(std::size_t body) const {
+    return !remote_bodies_.empty() && remote_bodies_[body].has_value();
+  }
   /// All particles and bodies are advanced here.
   void own_all();
   void check_epoch() const;
@@ -171,14 +173,14 @@ class World {
   std::pair<std::uint32_t, std::uint32_t> own_particles_;  ///< the first, and the one after the last
   std::vector<std::uint32_t> own_bodies_;
   /// A body that another process advances: how it was when that last told.
-  struct Stand_in {
+  struct Remote_body {
     std::vector<Point<D>> positions;
     std::vector<std::uint32_t> cells;
     Body_counts counts;
     bool has_arrived = false;
   };
-  std::vector<std::optional<Stand_in>> elsewhere_;  ///< of each body; empty: all are advanced here
-  std::vector<Walk_counts> counts_elsewhere_;       ///< of each other part
+  std::vector<std::optional<Remote_body>> remote_bodies_;  ///< of each body; empty: all are advanced here
+  std::vector<Walk_counts> remote_counts_;                 ///< of each other part
   friend class World_part<D>;
   friend detail::Saved_simulation<D>;
 };

@@ -31,7 +31,7 @@ struct Run_options {
 };
 
 /// Which options were given that must be those of a run to go on with.
-struct Asked {
+struct Given_options {
   bool scene = false;  ///< or changes of it
   bool steps = false, sweep = false, record = false, json = false;
 };

@@ -122,11 +122,11 @@ std::string finish(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D
   if (parts.motion) parts.motion->commit();
   std::string not_drawn;
   if (parts.picture) not_drawn = draw(input, parts, folder / "picture.png");
-  ordered_json said = report(input, parts);
-  if (!not_drawn.empty()) said["no_picture"] = not_drawn;
-  io::write_json(folder / "run.json", said);
+  ordered_json written = report(input, parts);
+  if (!not_drawn.empty()) written["no_picture"] = not_drawn;
+  io::write_json(folder / "run.json", written);
   if (parts.record) write_trace(parts.record->trace(), outputs.record, folder);
-  write_json(outputs.json, said);
+  write_json(outputs.json, written);
   return not_drawn;
 }
 
@@ -169,7 +169,7 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
       if (const auto* file = std::get_if<std::string>(&body.source)) outputs->all.also_reads(*file);
   }
   Ranks alone;
-  const std::string reason = hindrance(scene, !options.record.empty(), options.checkpoint_every > 0);
+  const std::string reason = why_not_shared(scene, !options.record.empty(), options.checkpoint_every > 0);
   Ranks& ranks = reason.empty() ? all : alone;
   if (!reason.empty() && outputs == nullptr) return;
   const Scene_bodies<D> bodies = load_bodies(scene, options.scene);
@@ -222,23 +222,23 @@ void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<
 }
 
 /// Refuses options of another run than the one that goes on.
-void check_same(const Run_options& options, const Asked& asked, const Run_settings& settings,
+void check_same(const Run_options& options, const Given_options& given, const Run_settings& settings,
                 std::uint32_t steps) {
   const auto refuse = [&](const char* what) {
     throw Error(Error_code::usage,
                 fmt::format("{}: this run began with {}: leave that out, or begin another run",
                             options.resume, what));
   };
-  if (asked.scene && load_scene(options.scene, options.changes).text != settings.scene_text)
+  if (given.scene && load_scene(options.scene, options.changes).text != settings.scene_text)
     refuse("another scene");
-  if (asked.steps && options.steps != steps) refuse("another number of --steps");
-  if (asked.sweep && options.body.sweep.sweep != settings.sweep) refuse("another --sweep");
+  if (given.steps && options.steps != steps) refuse("another number of --steps");
+  if (given.sweep && options.body.sweep.sweep != settings.sweep) refuse("another --sweep");
   // Where they go is up to whoever goes on.
-  if (asked.record && settings.record.empty()) refuse("another --record");
-  if (asked.json && settings.json.empty()) refuse("another --json");
+  if (given.record && settings.record.empty()) refuse("another --record");
+  if (given.json && settings.json.empty()) refuse("another --json");
 }
 
-void resume(Run_options options, const Asked& asked) {
+void resume(Run_options options, const Given_options& given) {
   const auto note_end = [&] {
     fmt::print("{}: the run had ended, and its results are there\n", options.resume);
   };
@@ -255,7 +255,7 @@ void resume(Run_options options, const Asked& asked) {
                                           std::filesystem::path(settings.scene).parent_path());
   const std::uint32_t steps =
       settings.steps > 0 ? settings.steps : std::visit([](const auto& of) { return of.steps; }, scene);
-  check_same(options, asked, settings, steps);
+  check_same(options, given, settings, steps);
   outputs.open(options.record, options.json);
   options.scene = printable(settings.scene);
   options.scene_text = settings.scene_text;
@@ -343,16 +343,16 @@ void add_run(CLI::App& app, Action& chosen) {
   command->callback([options, command, &chosen] {
     if (options->folder.empty() && options->resume.empty()) throw CLI::RequiredError("--output");
     const auto is_given = [command](const char* name) { return command->get_option(name)->count() > 0; };
-    const Asked asked{is_given("scene") || is_given("--set"), is_given("--steps"), is_given("--sweep"),
-                      is_given("--record"), is_given("--json")};
-    chosen = [options, asked](Ranks& ranks) {
+    const Given_options given{is_given("scene") || is_given("--set"), is_given("--steps"),
+                              is_given("--sweep"), is_given("--record"), is_given("--json")};
+    chosen = [options, given](Ranks& ranks) {
       std::optional<tbb::global_control> limit;
       if (options->threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options->threads);
       try {
         if (options->resume.empty())
           run(*options, ranks);
         else if (ranks.is_first())
-          resume(*options, asked);
+          resume(*options, given);
       } catch (const Interrupted& interrupted) {
         end_by(interrupted);
       }

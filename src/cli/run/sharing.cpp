@@ -4,7 +4,7 @@
 namespace cellwalk::cli {
 
 template <int D>
-std::string hindrance(const Scene<D>& scene, bool is_recorded, bool is_kept) {
+std::string why_not_shared(const Scene<D>& scene, bool is_recorded, bool is_kept) {
   if (scene.walls) return "walls move";
   if (!scene.changes.list.empty()) return "facets or cells change";
   if (is_recorded) return "a trace is recorded";
@@ -28,12 +28,13 @@ bool Run_sharing<D>::needs_states() const {
 }
 
 template <int D>
-void Run_sharing<D>::exchange(const Told& what) {
+void Run_sharing<D>::exchange(const State_request& request) {
   bool is_own = true;
-  ranks_.gather(ranks_.is_first() ? std::string{} : part_->tell(what), [&](const std::string& told) {
-    if (!is_own) part_->take_over(told);
-    is_own = false;
-  });
+  ranks_.gather(ranks_.is_first() ? std::string{} : part_->state_of_part(request),
+                [&](const std::string& told) {
+                  if (!is_own) part_->take_over(told);
+                  is_own = false;
+                });
 }
 
 template <int D>
@@ -48,8 +49,8 @@ void Run_sharing<D>::finish() {
   if (part_) exchange({false, true});
 }
 
-template std::string hindrance(const Scene<2>&, bool, bool);
-template std::string hindrance(const Scene<3>&, bool, bool);
+template std::string why_not_shared(const Scene<2>&, bool, bool);
+template std::string why_not_shared(const Scene<3>&, bool, bool);
 template class Run_sharing<2>;
 template class Run_sharing<3>;
 

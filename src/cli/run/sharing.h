@@ -16,7 +16,7 @@ namespace cellwalk::cli {
 
 /// Why ranks cannot share a run; empty if they can.
 template <int D>
-std::string hindrance(const Scene<D>& scene, bool is_recorded, bool is_kept);
+std::string why_not_shared(const Scene<D>& scene, bool is_recorded, bool is_kept);
 
 /// When the first rank has to know where everything is: at the end, and as follows.
 struct State_times {
@@ -41,7 +41,7 @@ class Run_sharing {
 
  private:
   bool needs_states() const;
-  void exchange(const Told& what);
+  void exchange(const State_request& request);
 
   Ranks& ranks_;
   World<D>& world_;
@@ -49,8 +49,8 @@ class Run_sharing {
   std::optional<World_part<D>> part_;
 };
 
-extern template std::string hindrance(const Scene<2>&, bool, bool);
-extern template std::string hindrance(const Scene<3>&, bool, bool);
+extern template std::string why_not_shared(const Scene<2>&, bool, bool);
+extern template std::string why_not_shared(const Scene<3>&, bool, bool);
 extern template class Run_sharing<2>;
 extern template class Run_sharing<3>;
 

@@ -123,7 +123,7 @@ void Run_walls<D>::move(World<D>& world, std::uint32_t step, const std::vector<V
   std::map<std::uint32_t, Point<D>> left;
   for (const Vertex_result<D>& result : report.short_of_target) {
     ++ends_[static_cast<std::size_t>(result.end)];
-    if (const auto asked = pending_.find(result.point); asked != pending_.end()) left.insert(*asked);
+    if (const auto found = pending_.find(result.point); found != pending_.end()) left.insert(*found);
   }
   pending_ = std::move(left);
   if (foundation_) foundation_->follow(moves, report);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/edge/chain.h>
 
-#include "any_way.h"
+#include "any_path.h"
 
 namespace cellwalk {
 template <int D>
@@ -10,8 +10,8 @@ Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p
   Chain_result<D> result = find_chain(snapshot, p, q, counts);
   if (!result.contact || p.position == q.position) return result;
   const detail::Rational_segment<D> segment(p.position, q.position);
-  detail::Any_way<D> rule{p.position, q.position, counts};
-  detail::Chain_search<D, detail::Any_way<D>> search(snapshot, segment, q, rule, counts);
+  detail::Any_path<D> rule{p.position, q.position, counts};
+  detail::Chain_search<D, detail::Any_path<D>> search(snapshot, segment, q, rule, counts);
   if (!search.find(p.cell)) return result;
   result.chain = search.chain();
   result.contact.reset();

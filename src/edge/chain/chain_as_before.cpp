@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "any_way.h"
+#include "any_path.h"
 #include "equal_chains.h"
 
 namespace cellwalk::detail {
@@ -73,7 +73,7 @@ class Way_before {
 
 /// The rule of a search that accepts paths along the way before.
 template <int D>
-struct Along_way : Any_way<D> {
+struct Along_way : Any_path<D> {
   const Way_before<D>& way;
 
   bool admits(Cell cell, const Fraction& t, const Fraction& end) const {

@@ -151,7 +151,7 @@ class Motion_in_plane {
     for (const Half_facet half : is_along ? along(halves, edge) : halves) part.search->take(half);
   }
 
-  /// What is off the plane binds what it is joined to.
+  /// An edge or face that ends off the plane fixes the side on which the parts joined to it may be.
   void bind() {
     const std::vector<Part*> moving = moving_edges();
     for (std::size_t e = 0; e < edges_.size(); ++e)

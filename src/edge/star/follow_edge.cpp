@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/follow_edge.h>
-#include <cellwalk/internal/edge/way_within.h>
+#include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>

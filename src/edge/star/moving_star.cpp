@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/edge/moving_star.h>
-#include <cellwalk/internal/edge/way_within.h>
+#include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>
@@ -222,7 +222,7 @@ Particle<D> Moving_star<D>::registered_in(Cell c, const Particle<D>& p) const {
 template <int D>
 Chain Moving_star<D>::relinked(const Chain& before, Cell first, const Particle<D>& p,
                                const Particle<D>& q) const {
-  const Way_within<D> way(snapshot_, cells_, counts_);
+  const Path_within_cells<D> way(snapshot_, cells_, counts_);
   Chain chain;
   Cell old = first, now = p.cell;
   for (auto f = before.begin();;) {

@@ -49,8 +49,8 @@ constexpr std::size_t longest_complaint = 4096, longest_shown = 160;
 }
 
 /// The first line of what a helper complained of, with what an assertion says first, in brackets; or nothing.
-std::string complaint(const Memory_file& said) {
-  const std::vector<std::byte> bytes = said.read(longest_complaint);
+std::string complaint(const Memory_file& messages) {
+  const std::vector<std::byte> bytes = messages.read(longest_complaint);
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   text = text.substr(0, text.find_first_of(std::string_view("\r\n\0", 3)));
   if (const auto assertion = text.find("Assertion `"); assertion != text.npos) text.remove_prefix(assertion);
@@ -81,11 +81,11 @@ const char* meaning(int code) {
 }
 
 /// \throw Error(not_certified) for every end but success
-void expect_success(const Helper& helper, const Process::End& end, const Memory_file& said) {
+void expect_success(const Helper& helper, const Process::End& end, const Memory_file& messages) {
   if (end.signal != 0) {
     const char* name = sigabbrev_np(end.signal);
     fail(helper, fmt::format("crashed (signal {}, SIG{}{})", end.signal, name != nullptr ? name : "?",
-                             complaint(said)));
+                             complaint(messages)));
   }
   if (end.code == 0) return;
   if (end.code == other_version)
@@ -94,12 +94,12 @@ void expect_success(const Helper& helper, const Process::End& end, const Memory_
                             "of this one's in CELLWALK_LIBEXEC",
                             helper.program, CELLWALK_VERSION));
   if (end.code == out_of_memory) give_up(helper, "ran out of memory; give a smaller surface or larger cells");
-  if (end.code == mesher_failed) fail(helper, fmt::format("failed{}", complaint(said)));
+  if (end.code == mesher_failed) fail(helper, fmt::format("failed{}", complaint(messages)));
   constexpr int largest_code = 10;  // that TetGen throws
   if (end.code > mesher_failed && end.code <= mesher_failed + largest_code)
     fail(helper,
          fmt::format("{} (its code {})", meaning(end.code - mesher_failed), end.code - mesher_failed));
-  fail(helper, fmt::format("crashed (exit code {}{})", end.code, complaint(said)));
+  fail(helper, fmt::format("crashed (exit code {}{})", end.code, complaint(messages)));
 }
 
 /// Waits for the end.
@@ -141,7 +141,7 @@ Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& o
                 fmt::format("{}: the limit of time must be greater than 0", helper.mesher));
   const fs::path program = find_helper(helper);
   if (program.empty()) refuse_missing(helper);
-  Memory_file in, out, said;
+  Memory_file in, out, messages;
   {
     Byte_writer writer;
     writer(input);
@@ -150,8 +150,8 @@ Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& o
   }
   std::vector<std::string> arguments{CELLWALK_VERSION, std::to_string(::getpid())};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  Process process(program.string(), arguments, in, out, said);
-  expect_success(helper, end_of(process, helper, limits, start), said);
+  Process process(program.string(), arguments, in, out, messages);
+  expect_success(helper, end_of(process, helper, limits, start), messages);
   const std::vector<std::byte> bytes = out.read();
   try {
     Mesher_output output;

@@ -46,7 +46,7 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
     const auto last = std::ranges::upper_bound(all, group, {}, &Member::group);
     return std::span<const Member>(first, last);
   };
-  const auto moved = moved_.size(), chains = chains_.size(), rests = rests_.size();
+  const auto moved = moved_.size(), chains = chains_.size(), walls = supporting_walls_.size();
   const auto shorten = [](auto& list, std::size_t size) {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
   };
@@ -54,7 +54,7 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
     obstruction_ = {};
     shorten(moved_, moved);
     shorten(chains_, chains);
-    shorten(rests_, rests);
+    shorten(supporting_walls_, walls);
     if (try_vertices(star, members(vertices_)) && try_edges(star, members(edges_))) try_faces(star, group);
     return obstruction_.meeting == Encounter::apart;
   };
@@ -297,7 +297,7 @@ template <int D>
 void Vertex_trial<D>::commit() noexcept {
   for (const Moved_vertex& moved : moved_) groups_.particle(moved.member) = moved.now;
   for (auto& [edge, chain] : chains_) groups_.chain(edge) = std::move(chain);
-  for (auto& [face, walls] : rests_) groups_.rest(face, std::move(walls));
+  for (auto& [face, walls] : supporting_walls_) groups_.rest(face, std::move(walls));
 }
 
 template class Vertex_trial<2>;

@@ -53,7 +53,7 @@ class Vertex_trial {
   void clear() {
     moved_.clear();
     chains_.clear();
-    rests_.clear();
+    supporting_walls_.clear();
   }
 
  private:
@@ -103,7 +103,7 @@ class Vertex_trial {
   Chain in_star_;                    ///< facets of a chain that have the vertex
   std::vector<Moved_vertex> moved_;  ///< of all in the star, in order
   std::vector<std::pair<Member, Chain>> chains_;
-  std::vector<std::pair<Member, Supporting_walls>> rests_;
+  std::vector<std::pair<Member, Supporting_walls>> supporting_walls_;
 };
 
 extern template class Vertex_trial<2>;

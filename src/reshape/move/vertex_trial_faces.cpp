@@ -44,7 +44,7 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
     Face_at_star result = after(star, face, points);
     if (result.is_free) {
       ++counts_.rested;
-      rests_.emplace_back(face, std::move(result.supporting_walls));
+      supporting_walls_.emplace_back(face, std::move(result.supporting_walls));
       return true;
     }
     // Once something is in the way, all that matters is what else is hit.

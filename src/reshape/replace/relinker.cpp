@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "relinker.h"
 
-#include <cellwalk/internal/edge/way_within.h>
+#include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
@@ -117,7 +117,7 @@ void Relinker<D>::write_chain(Member edge, std::span<const Cell> sorted, Chain& 
     return moved ? moved->now : groups_.particle(member);
   };
   const Particle<D> p = end_of(u), q = end_of(v);
-  const Way_within<D> way(snapshot_, sorted, counts_);
+  const Path_within_cells<D> way(snapshot_, sorted, counts_);
   Cell now = p.cell;
   const auto go_to = [&](Cell goal) {
     if (now != goal) way.append(chain, now, goal, p.position, q.position);

@@ -164,8 +164,8 @@ void keep_simulation() {
       &Tissue<D>::targets, &Tissue<D>::follow, &Tissue<D>::follow_changes, &Tissue<D>::largest_stretch,
       &Tissue<D>::edge_count);
   keep(
-      &select<D>, static_cast<Point<D> (*)(const Snapshot<D>&, Half_facet)>(&mean_of<D>),
-      static_cast<Point<D> (*)(const Snapshot<D>&, Cell)>(&mean_of<D>),
+      &select<D>, static_cast<Point<D> (*)(const Snapshot<D>&, Half_facet)>(&centroid<D>),
+      static_cast<Point<D> (*)(const Snapshot<D>&, Cell)>(&centroid<D>),
       +[](const Snapshot<D>& s, const Environment_changes<D>& c) { return Change_schedule<D>(s, c); },
       &Change_schedule<D>::is_due, &Change_schedule<D>::apply);
 }

@@ -11,8 +11,8 @@
 
 namespace cellwalk {
 
-/// What a world tells of its part.
-struct Told {
+/// What other parts need to know of a part.
+struct State_request {
   bool contacts = false;  ///< of the last step
   bool states = false;    ///< where everything is, in which cells, and counts
 };
@@ -28,12 +28,12 @@ class World_part {
   /// \pre number < count; nobody moves or changes walls
   World_part(World<D>& world, std::size_t number, std::size_t count);
 
-  /// What this part is, for take_over().
-  std::string tell(const Told& what) const;
-  /// Takes over what another part tells: World::contacts(), positions() and the like tell of it too. Call
+  /// The state of this part, as bytes for take_over().
+  std::string state_of_part(const State_request& request) const;
+  /// Takes over the state of another part: World::contacts(), positions() and the like include it. Call
   /// sort_contacts() after the last part.
   /// \throw Error if it is not of such a part
-  void take_over(std::string_view told);
+  void take_over(std::string_view state);
   /// Puts contacts in the order of one world.
   void sort_contacts();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/internal/edge/way_within.h>
+#include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
@@ -24,17 +24,18 @@ Particle<D> particle_in(const Snapshot<D>& snapshot, Cell c, const Particle<D>& 
 }
 
 template <int D>
-bool Way_within<D>::has(Cell cell) const {
+bool Path_within_cells<D>::has(Cell cell) const {
   return std::ranges::binary_search(cells_, cell);
 }
 
 template <int D>
-bool Way_within<D>::may_pass(Half_facet f) const {
+bool Path_within_cells<D>::may_pass(Half_facet f) const {
   return !snapshot_.is_impassable(f) && has(snapshot_.neighbour(f)) && has(snapshot_.cell_of(f));
 }
 
 template <int D>
-void Way_within<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p, const Point<D>& q) const {
+void Path_within_cells<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                  const Point<D>& q) const {
   const Chain known = chain;
   if (append_by_signs(chain, from, to, p, q)) return;
   chain = known;
@@ -46,8 +47,8 @@ void Way_within<D>::append(Chain& chain, Cell from, Cell to, const Point<D>& p, 
 
 /// Where the edge passes each of these facets in its interior. False if it does not.
 template <int D>
-bool Way_within<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
-                                    const Point<D>& q) const {
+bool Path_within_cells<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                           const Point<D>& q) const {
   Float_point<D> a{}, b{};
   const bool is_framed = snapshot_.frame().map(p, a) && snapshot_.frame().map(q, b);
   // An empty chain ends in the cell of p.
@@ -70,7 +71,7 @@ bool Way_within<D>::append_by_signs(Chain& chain, Cell from, Cell to, const Poin
 
 /// The facet of a cell through whose interior the edge leaves it, if there is one.
 template <int D>
-Half_facet Way_within<D>::exit_by_signs(Cell from, const Point<D>& p, const Point<D>& q) const {
+Half_facet Path_within_cells<D>::exit_by_signs(Cell from, const Point<D>& p, const Point<D>& q) const {
   const Line<Exact, D> line{p, q, counts_};
   const Cell_view<D> cell = snapshot_.view(from);
   for (std::size_t i = 0; i < cell.facet_count(); ++i)
@@ -81,8 +82,8 @@ Half_facet Way_within<D>::exit_by_signs(Cell from, const Point<D>& p, const Poin
 
 /// The same in every position: each cell is reached as early along the edge as possible.
 template <int D>
-bool Way_within<D>::append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p,
-                                   const Point<D>& q) const {
+bool Path_within_cells<D>::append_exactly(Chain& chain, Cell from, Cell to, const Point<D>& p,
+                                          const Point<D>& q) const {
   struct Reached {
     Cell cell;
     Fraction at;
@@ -122,7 +123,7 @@ bool Way_within<D>::append_exactly(Chain& chain, Cell from, Cell to, const Point
 
 template Particle<2> particle_in(const Snapshot<2>&, Cell, const Particle<2>&, Walk_counts&);
 template Particle<3> particle_in(const Snapshot<3>&, Cell, const Particle<3>&, Walk_counts&);
-template class Way_within<2>;
-template class Way_within<3>;
+template class Path_within_cells<2>;
+template class Path_within_cells<3>;
 
 }  // namespace cellwalk::detail

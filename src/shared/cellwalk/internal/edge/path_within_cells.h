@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Ways of an edge through given cells between which there is no wall. Theory: docs/moving.md.
-#ifndef CELLWALK_INTERNAL_EDGE_WAY_WITHIN_H
-#define CELLWALK_INTERNAL_EDGE_WAY_WITHIN_H
+#ifndef CELLWALK_INTERNAL_EDGE_PATH_WITHIN_CELLS_H
+#define CELLWALK_INTERNAL_EDGE_PATH_WITHIN_CELLS_H
 
 #include <cellwalk/edge/chain.h>
 
@@ -27,10 +27,10 @@ Particle<D> particle_in(const Snapshot<D>& snapshot, Cell cell, const Particle<D
 /// Finds ways that do not leave some cells. All ways between two cells along an edge are equal in them, so
 /// any will do.
 template <int D>
-class Way_within {
+class Path_within_cells {
  public:
   /// \param cells ascending; they outlive this
-  Way_within(const Snapshot<D>& snapshot, std::span<const Cell> cells, Walk_counts& counts)
+  Path_within_cells(const Snapshot<D>& snapshot, std::span<const Cell> cells, Walk_counts& counts)
       : snapshot_(snapshot), cells_(cells), counts_(counts) {}
 
   /// Appends the facets through which the edge pq passes from one of the cells to another to the chain before
@@ -51,9 +51,9 @@ class Way_within {
   Walk_counts& counts_;
 };
 
-extern template class Way_within<2>;
-extern template class Way_within<3>;
+extern template class Path_within_cells<2>;
+extern template class Path_within_cells<3>;
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_INTERNAL_EDGE_WAY_WITHIN_H
+#endif  // CELLWALK_INTERNAL_EDGE_PATH_WITHIN_CELLS_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What searches for any chain of a segment have in common with tests of chains.
-#ifndef CELLWALK_EDGE_CHAIN_ANY_WAY_H
-#define CELLWALK_EDGE_CHAIN_ANY_WAY_H
+#ifndef CELLWALK_EDGE_CHAIN_ANY_PATH_H
+#define CELLWALK_EDGE_CHAIN_ANY_PATH_H
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace cellwalk::detail {
 
 /// The rule of a search that accepts any path.
 template <int D>
-struct Any_way {
+struct Any_path {
   const Point<D>&p, &q;
   Walk_counts& counts;
 
@@ -43,4 +43,4 @@ bool passes_in_order(const Snapshot<D>& snapshot, const Chain& chain, const Poin
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_EDGE_CHAIN_ANY_WAY_H
+#endif  // CELLWALK_EDGE_CHAIN_ANY_PATH_H
