@@ -2,6 +2,7 @@
 // Bodies and contacts in a picture.
 #include <cellwalk/internal/drawing/bodies.h>
 #include <cellwalk/internal/kernel/box.h>
+#include <cellwalk/io/vtu.h>
 
 #include <algorithm>
 
@@ -26,14 +27,11 @@ void draw_arrow(Drawing& drawing, const Point<2>& p, const Vector<2>& n, double 
   add_flat_arrow(drawing, p, n, arrow, 2 * size, height, material);
 }
 
-Point<3> in_space(const Point<3>& x) { return x; }
-Point<3> in_space(const Point<2>& x) { return {x[0], x[1], 0}; }
-
 template <int D>
 void draw_faces(Drawing& drawing, const Body<D>& body, std::span<const Point<D>> positions, double share,
                 std::size_t& number, std::uint32_t material) {
   std::vector<Point<3>> points;
-  for (const Point<D>& x : positions) points.push_back(in_space(x));
+  for (const Point<D>& x : positions) points.push_back(io::in_space(x));
   std::vector<std::vector<std::uint32_t>> loops;
   for (const auto& face : body.faces())
     if (is_among(share, number++)) loops.emplace_back(face.begin(), face.end());

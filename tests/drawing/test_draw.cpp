@@ -6,6 +6,7 @@
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -26,7 +27,7 @@ class Drawn {
 
   std::string bytes(bool with_body, bool with_contacts) const {
     const auto file =
-        std::filesystem::temp_directory_path() / ("cellwalk_drawn_" + std::to_string(D) + ".png");
+        std::filesystem::temp_directory_path() / ("cellwalk_drawn_" + std::to_string(::getpid()) + ".png");
     draw(environment_, with_body ? std::vector<const Body<D>*>{&body_} : std::vector<const Body<D>*>{},
          with_contacts ? contacts_ : std::vector<Contact<D>>{}, file.string());
     std::ifstream in(file, std::ios::binary);

@@ -30,15 +30,15 @@ struct Rejected_move {
   bool stays() const { return is_vertex_blocked || edges != 0; }
 };
 
-/// A vertex meets a wall if it does on its way, or one of its edges or faces does. The rule of a step says
-/// which edges do, and how the vertex reacts.
+/// A vertex meets a wall on its own path, or by one of its edges or faces. The rule of a step defines where
+/// edges are tested, and how the vertex reacts.
 enum class Step_rule {
-  /// Edges and faces do while they sweep what Sweep_options::sweep says. The vertex stops at a verified
+  /// Edges and faces are tested while they sweep, by Sweep_options::sweep. The vertex stops at a verified
   /// position just before the contact; its remaining motion is projected on the wall and tried again.
   slide,
-  /// Edges and faces do as above. The vertex stays where it was.
+  /// Edges and faces are tested as above. The vertex stays where it was.
   reject,
-  /// The rule of the paper, and of traces: edges do at the target of the vertex. The vertex stays where it
+  /// The rule of the paper, and of traces: edges are tested at the target of the vertex, which stays where it
   /// was. Unless Sweep::three_segments is asked for, edges that meet a wall on their way are reported, too,
   /// but do not hold the vertex back; faces are left alone. With Touch::stop any closed wall is in the way
   /// that meets the closed way of the vertex, or an edge at its end, or a closed triangle. This includes

@@ -15,7 +15,7 @@ namespace cellwalk {
 /// \param bodies not null; their positions are those where they stand now
 /// \param file a PNG of 1600 x 1000 pixels; replaced if it is there
 /// \throw Error(other) if the file cannot be written
-/// Degenerate cases: of large environments and bodies a share is drawn.
+/// Degenerate cases: of large environments and bodies only a share is drawn.
 /// Cost: about a second, and up to 300 MB of memory.
 template <int D>
 void draw(const Snapshot<D>& snapshot, const std::vector<const Body<D>*>& bodies,

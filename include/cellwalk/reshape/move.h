@@ -28,10 +28,10 @@ enum class Move_end : std::uint8_t {
   boundary  ///< the boundary of the environment would run into itself, or into another point
 };
 
-/// The first meeting of a moving wall and a resident that it would pass through. Its `time` is the share of
-/// the move of the vertex of the environment that is free; exact, but for faces that another wall touches
-/// before. Its normal leads from the wall to the resident, its facet is the wall seen from that side, of kind
-/// `vertex` is the one that moves, and `vertex` names that.
+/// The first contact of a moving wall with a resident through which it would pass. `time` is the free share
+/// of the move of the wall's vertex; it is exact, except for faces that another wall touches before. `vertex`
+/// is that vertex of the environment; if `kind` is a vertex, it is this one. `normal` leads from the wall to the
+/// resident, and `facet` is the wall seen from that side. `cell` and `corner` are not set.
 template <int D>
 struct Wall_hit : Contact<D> {
   /// Weights of the corners of the wall at the point, rounded, of sum 1: first the vertex that moves, then
