@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# cellwalk_layer(NAME [COMPONENT core|io|meshing|loading|none] SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# cellwalk_layer(NAME [COMPONENT core|io|meshing|loading|none] [HOT | COLD] [BATCHES N] SOURCES ... LINKS ... PRIVATE_LINKS ...)
 #
 # One static library per layer, linked downward only, installed and exported with its component, or not at all: none. The compiler
 # refuses GPL headers of CGAL in every component but meshing, however deep they are included.
 #
 # Three folders of headers: include/ is what users include; src/shared/ what layers share, <cellwalk/internal/LAYER/...>, of which
 # only what public headers need is installed; and in src/LAYER/ lies what is a layer's own.
+# HOT, COLD and BATCHES: see cellwalk_compile().
 function(cellwalk_layer name)
-  cmake_parse_arguments(LAYER "" "COMPONENT" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(LAYER "HOT;COLD" "COMPONENT;BATCHES" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   if(NOT LAYER_COMPONENT)
     set(LAYER_COMPONENT core)
+  endif()
+  set(heat)
+  if(LAYER_HOT)
+    set(heat HOT)
+  elseif(LAYER_COLD)
+    set(heat COLD)
   endif()
   set(target cellwalk_${name})
   if(LAYER_SOURCES)
@@ -23,6 +30,7 @@ function(cellwalk_layer name)
     if(NOT LAYER_COMPONENT STREQUAL meshing)
       target_compile_definitions(${target} PRIVATE CGAL_LICENSE_ERROR)
     endif()
+    cellwalk_compile(${target} ${heat} BATCHES ${LAYER_BATCHES})
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE

@@ -11,14 +11,14 @@
 
 #include "edge/relisted.h"
 #include "reshape/definition_oracle.h"
+#include "reshape/dimensions.h"
 #include "reshape/reshape_world.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk {
 namespace {
 
-/// How many worlds: no fewer under a sanitizer, since of few of them too few have what is looked for.
-std::size_t count_of(std::size_t worlds) { return std::max(oracle::scaled_count(worlds), worlds); }
+using test::count_at_least;
 
 /// A world of simplices and the same world listed in another order.
 template <int D>
@@ -108,7 +108,7 @@ void ask_both(std::uint64_t first, std::uint64_t worlds) {
   constexpr int moves = 60;
   int asked = 0, reached = 0, different = 0;
   std::size_t bodies = 0, kept = 0;
-  for (std::uint64_t k = first; k < first + count_of(worlds); ++k) {
+  for (std::uint64_t k = first; k < first + count_at_least(worlds); ++k) {
     // Worlds of simplices on a lattice.
     Twins<D> twins(oracle::world_kinds * k + 9);
     if (!twins.are_alike()) continue;

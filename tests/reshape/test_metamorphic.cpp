@@ -12,16 +12,15 @@
 
 #include "edge/relisted.h"
 #include "reshape/definition_oracle.h"
+#include "reshape/dimensions.h"
 #include "reshape/reshape_world.h"
 #include "walk/oracle_trial.h"
 
 namespace cellwalk {
 namespace {
 
-/// How many worlds: no fewer under a sanitizer, since of few of them too few have what is looked for.
-std::size_t count_of(std::size_t worlds) { return std::max(oracle::scaled_count(worlds), worlds); }
-
-constexpr Reshape_options hold{.at_contact = At_contact::hold};
+using test::count_at_least;
+using test::hold;
 
 template <int D>
 using World = test::Reshape_world<D>;
@@ -57,7 +56,7 @@ int changed(const World<D>& world, std::uint32_t v, const std::vector<test::Regi
 template <int D>
 void go_there_and_back(bool generic, std::size_t worlds) {
   int moves = 0, stuck = 0, parted = 0, changes = 0;
-  for (std::uint64_t number = 0; number < count_of(worlds); ++number) {
+  for (std::uint64_t number = 0; number < count_at_least(worlds); ++number) {
     World<D> world(number, generic);
     world.populate(8, 6);
     Reshaping<D> reshaping(world.environment, world.residents(), hold);
@@ -81,7 +80,7 @@ void go_there_and_back(bool generic, std::size_t worlds) {
   EXPECT_EQ(stuck, 0);
   EXPECT_LE(parted, moves / 20);
   EXPECT_EQ(changes, 0);
-  EXPECT_GT(moves, static_cast<int>(count_of(worlds)));
+  EXPECT_GT(moves, static_cast<int>(count_at_least(worlds)));
 }
 
 TEST(Metamorphic, ThereAndBackChangesNothing) {
@@ -101,7 +100,7 @@ bool is_same(const Vertex_result<D>& x, const Vertex_result<D>& y) {
 template <int D>
 void swap_order(bool generic, std::size_t worlds) {
   int pairs = 0, different = 0;
-  for (std::uint64_t number = 0; number < count_of(worlds); ++number)
+  for (std::uint64_t number = 0; number < count_at_least(worlds); ++number)
     for (int trial = 0; trial < 3; ++trial) {
       World<D> one(number, generic), other(number, generic);
       one.populate(8, 6);
@@ -128,7 +127,7 @@ void swap_order(bool generic, std::size_t worlds) {
       different += changed(other, u, before);
     }
   EXPECT_EQ(different, 0);
-  EXPECT_GT(pairs, static_cast<int>(count_of(worlds)) / 3);
+  EXPECT_GT(pairs, static_cast<int>(count_at_least(worlds)) / 3);
 }
 
 TEST(Metamorphic, VerticesWithoutACommonCellCommute) {
@@ -143,7 +142,7 @@ TEST(Metamorphic, VerticesWithoutACommonCellCommute) {
 template <int D, class Map>
 void ask_in_images(bool generic, std::size_t worlds, const Map& map, double share_of_all) {
   int asked = 0, contacts = 0, different = 0, bodies = 0, kept = 0;
-  for (std::uint64_t k = 0; k < count_of(worlds); ++k) {
+  for (std::uint64_t k = 0; k < count_at_least(worlds); ++k) {
     // Worlds of simplices, whose cells are not split.
     const std::uint64_t number = oracle::world_kinds * k + (generic ? 10 : 9);
     World<D> world(number, generic);

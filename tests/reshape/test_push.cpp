@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "reshape/dimensions.h"
 #include "reshape/grids.h"
 #include "reshape/star_scene.h"
 #include "reshape/wall_judge.h"
@@ -53,15 +54,7 @@ struct Room {
 
 template <class Dimension>
 class PushTest : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-
-struct Name_of_dimension {
-  template <class Dimension>
-  static std::string GetName(int) {
-    return std::to_string(Dimension::value) + "D";
-  }
-};
-TYPED_TEST_SUITE(PushTest, Dimensions, Name_of_dimension);
+TYPED_TEST_SUITE(PushTest, test::Dimensions, test::Name_of_dimension);
 
 TYPED_TEST(PushTest, AnEdgeIsPushedAsFarAsTheWallNeeds) {
   constexpr int D = TypeParam::value;

@@ -12,8 +12,8 @@
 namespace cellwalk {
 namespace {
 
-constexpr std::uint32_t vertex = 0, west = 1, first = 2, wall_begin = 3, wall_middle = 4, wall_end = 5,
-                        last = 6;
+constexpr std::uint32_t moved_vertex = 0, west = 1, line_begin = 2, wall_begin = 3, wall_middle = 4, wall_end = 5,
+                        line_end = 6;
 
 // Below the vertex four facets lie in one line: one that is open, two walls, one that is open. One cell lies
 // below them all, so that the way behind the walls is shorter than that through the cells at the vertex.
@@ -30,8 +30,8 @@ Cell_soup<2> line_of_facets() {
     }
     soup.end_cell();
   };
-  for (std::uint32_t k = 1; k <= 9; ++k) add({vertex, k, k % 9 + 1});
-  add({first, 10, 11, last, wall_end, wall_middle, wall_begin});
+  for (std::uint32_t k = 1; k <= 9; ++k) add({moved_vertex, k, k % 9 + 1});
+  add({line_begin, 10, 11, line_end, wall_end, wall_middle, wall_begin});
   return soup;
 }
 

@@ -11,10 +11,13 @@
 #include <cmath>
 #include <vector>
 
+#include "reshape/dimensions.h"
 #include "reshape/grids.h"
 
 namespace cellwalk {
 namespace {
+
+using test::hold;
 
 using test::add_membrane;
 using test::point_at;
@@ -43,8 +46,6 @@ struct Room {
   Environment<3> environment;
   std::uint32_t vertex = 0;
 };
-
-constexpr Reshape_options hold{.at_contact = At_contact::hold};
 
 TEST(Reshaping, AWallMeetsAParticleAtAnExactTime) {
   Room room;

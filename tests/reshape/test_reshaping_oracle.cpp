@@ -16,7 +16,7 @@ namespace cellwalk {
 namespace {
 
 /// How many worlds: enough for what is looked for under a sanitizer, too.
-std::size_t count_of(std::size_t worlds) { return std::max(oracle::scaled_count(worlds), worlds / 4 + 1); }
+std::size_t some_of(std::size_t worlds) { return std::max(oracle::scaled_count(worlds), worlds / 4 + 1); }
 
 template <int D, class World, class Make>
 typename test::Wall_judge<D, World>::Tally run(const char* kind, std::size_t worlds, const Make& make,
@@ -65,7 +65,7 @@ typename test::Wall_judge<D, World>::Tally run(const char* kind, std::size_t wor
 }
 
 template <int D>
-void expect_all_right(bool generic, std::size_t worlds) {
+void expect_moves_right(bool generic, std::size_t worlds) {
   Reshape_counts counts;
   using World = test::Reshape_world<D>;
   const auto make = [&](std::uint64_t number) {
@@ -73,7 +73,7 @@ void expect_all_right(bool generic, std::size_t worlds) {
     world->populate(12, 8);
     return world;
   };
-  const auto tally = run<D, World>(generic ? "generic" : "degenerate", count_of(worlds), make, counts);
+  const auto tally = run<D, World>(generic ? "generic" : "degenerate", some_of(worlds), make, counts);
   EXPECT_EQ(tally.wrong(), 0);
   EXPECT_GT(tally.reached, tally.moves / 8);
   EXPECT_GT(tally.contacts, tally.moves / 100);
@@ -86,9 +86,9 @@ void expect_all_right(bool generic, std::size_t worlds) {
   }
 }
 
-TEST(ReshapingOracle, Generic2D) { expect_all_right<2>(true, 60); }
-TEST(ReshapingOracle, Degenerate2D) { expect_all_right<2>(false, 60); }
-TEST(ReshapingOracle, Generic3D) { expect_all_right<3>(true, 14); }
+TEST(ReshapingOracle, Generic2D) { expect_moves_right<2>(true, 60); }
+TEST(ReshapingOracle, Degenerate2D) { expect_moves_right<2>(false, 60); }
+TEST(ReshapingOracle, Generic3D) { expect_moves_right<3>(true, 14); }
 TEST(ReshapingOracle, Level3D) {
   Reshape_counts counts;
   const auto make = [](std::uint64_t number) {
@@ -96,12 +96,12 @@ TEST(ReshapingOracle, Level3D) {
     world->populate(3, 3);
     return world;
   };
-  const auto tally = run<3, test::Level_world>("level", count_of(8), make, counts);
+  const auto tally = run<3, test::Level_world>("level", some_of(8), make, counts);
   EXPECT_EQ(tally.wrong(), 0);
   EXPECT_GT(tally.landed, static_cast<int>(oracle::scaled_count(10)));
   EXPECT_GT(counts.rested, oracle::scaled_count(50));
 }
-TEST(ReshapingOracle, Degenerate3D) { expect_all_right<3>(false, 14); }
+TEST(ReshapingOracle, Degenerate3D) { expect_moves_right<3>(false, 14); }
 
 }  // namespace
 }  // namespace cellwalk

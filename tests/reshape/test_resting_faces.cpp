@@ -11,12 +11,13 @@
 #include <array>
 #include <vector>
 
+#include "reshape/dimensions.h"
 #include "reshape/grids.h"
 
 namespace cellwalk {
 namespace {
 
-constexpr Reshape_options hold{.at_contact = At_contact::hold};
+using test::hold;
 
 /// A floating membrane at height 3 around the vertex at (3, 3, 3), which can be raised or lowered.
 struct Tent {

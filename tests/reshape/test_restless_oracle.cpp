@@ -65,7 +65,7 @@ struct Seen {
 };
 
 template <int D>
-void expect_all_right(bool generic, std::size_t worlds) {
+void expect_restless_right(bool generic, std::size_t worlds) {
   Seen<D> seen;
   auto& tally = seen.tally;
   const char* const kind = generic ? "generic" : "degenerate";
@@ -104,10 +104,10 @@ void expect_all_right(bool generic, std::size_t worlds) {
   EXPECT_LE(tally.fates.choices + tally.fates.undecided, tally.moves / 100);
 }
 
-TEST(RestlessOracle, Generic2D) { expect_all_right<2>(true, 50); }
-TEST(RestlessOracle, Degenerate2D) { expect_all_right<2>(false, 50); }
-TEST(RestlessOracle, Generic3D) { expect_all_right<3>(true, 10); }
-TEST(RestlessOracle, Degenerate3D) { expect_all_right<3>(false, 10); }
+TEST(RestlessOracle, Generic2D) { expect_restless_right<2>(true, 50); }
+TEST(RestlessOracle, Degenerate2D) { expect_restless_right<2>(false, 50); }
+TEST(RestlessOracle, Generic3D) { expect_restless_right<3>(true, 10); }
+TEST(RestlessOracle, Degenerate3D) { expect_restless_right<3>(false, 10); }
 
 }  // namespace
 }  // namespace cellwalk

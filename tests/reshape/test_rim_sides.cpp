@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "reshape/dimensions.h"
 #include "reshape/octahedron.h"
 #include "reshape/star_scene.h"
 
@@ -18,18 +19,11 @@ using test::at;
 
 template <class Dimension>
 class RimSides : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-struct Name_of_dimension {
-  template <class Dimension>
-  static std::string GetName(int) {
-    return std::to_string(Dimension::value) + "D";
-  }
-};
-TYPED_TEST_SUITE(RimSides, Dimensions, Name_of_dimension);
+TYPED_TEST_SUITE(RimSides, test::Dimensions, test::Name_of_dimension);
 
 /// Four triangles around point 0; a wall from there to the left ends there.
 template <int D>
-Cell_soup<D> tip() {
+Cell_soup<D> tip_of_four() {
   test::Flat_soup<D> flat{{0, 0}, {4, 0}, {0, 4}, {-4, 0}, {0, -4}};
   flat.add_fan(4);
   flat.add_wall(0, 3);
@@ -50,7 +44,7 @@ TYPED_TEST(RimSides, AVertexOnTheRimGoesToTheSideOfItsEdge) {
   constexpr int D = TypeParam::value;
   for (const Point<D>& start : {at<D>(0.5, 1), at<D>(-0.5, 1), at<D>(-0.5, -1), at<D>(0.5, -1)})
     for (const double height : {1.0, -1.0}) {
-      test::Star_scene<D> scene(tip<D>());
+      test::Star_scene<D> scene(tip_of_four<D>());
       add_edge_at_tip(scene, start, height);
       EXPECT_EQ(scene.end_of(at<D>(1, 0)), Move_end::reached) << start[0] << " " << start[1] << " " << height;
       scene.expect_hit(at<D>(1, 0.125 * height), 0, 1);
@@ -61,7 +55,7 @@ TYPED_TEST(RimSides, AVertexOnTheRimGoesToTheSideOfItsEdge) {
 TYPED_TEST(RimSides, EachBodyTakesItsOwn) {
   constexpr int D = TypeParam::value;
   for (const Point<D>& start : {at<D>(0.5, 1), at<D>(-0.5, -1)}) {
-    test::Star_scene<D> scene(tip<D>());
+    test::Star_scene<D> scene(tip_of_four<D>());
     for (const double height : {1.0, -1.0}) {
       add_edge_at_tip(scene, start, height);
       scene.add_body({at<D>(0.5, 0), at<D>(-1, height, 0.125)});
@@ -72,7 +66,7 @@ TYPED_TEST(RimSides, EachBodyTakesItsOwn) {
 
 TYPED_TEST(RimSides, AnEdgeAroundTheRimIsInItsWay) {
   constexpr int D = TypeParam::value;
-  test::Star_scene<D> scene(tip<D>());
+  test::Star_scene<D> scene(tip_of_four<D>());
   Body<D>& body = scene.add_body({at<D>(-1, 1), at<D>(0.5, 0.25), at<D>(-1, -1)});
   Body_counts counts;
   EXPECT_FALSE(body.move_vertex(1, at<D>(0, 0), {}, counts));

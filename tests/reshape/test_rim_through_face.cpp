@@ -60,7 +60,7 @@ struct Flap {
   Body<3> body;
 };
 
-const std::vector<Point<3>> above{{1.25, 1.25, 2.25}, {3.25, 1.25, 2.25}, {1.25, 3.25, 2.25}};
+const std::vector<Point<3>> above_rim{{1.25, 1.25, 2.25}, {3.25, 1.25, 2.25}, {1.25, 3.25, 2.25}};
 
 void expect_time(const Vertex_result<3>& result, int numerator, int denominator) {
   ASSERT_EQ(result.end, Move_end::contact);
@@ -71,7 +71,7 @@ void expect_time(const Vertex_result<3>& result, int numerator, int denominator)
 }
 
 TEST(RimThroughFace, IsAHitWithItsTimeAndPlace) {
-  Flap flap(above);
+  Flap flap(above_rim);
   const auto result = flap.move({2, 2, 2}, {2, 2, 2.75});
   expect_time(result, 1, 3);
   EXPECT_EQ(result.hit->point, (Point<3>{2, 2, 2.25}));
@@ -82,7 +82,7 @@ TEST(RimThroughFace, IsAHitWithItsTimeAndPlace) {
 }
 
 TEST(RimThroughFace, MayTouchItAndGoBack) {
-  Flap flap(above);
+  Flap flap(above_rim);
   EXPECT_EQ(flap.move({2, 2, 2}, {2, 2, 2.25}).end, Move_end::reached);
   expect_time(flap.move({2, 2, 2.25}, {2, 2, 2.5}), 0, 1);
   EXPECT_EQ(flap.move({2, 2, 2.25}, {2.125, 2, 2.25}).end, Move_end::reached);
@@ -95,7 +95,7 @@ TEST(RimThroughFace, PassesBesideTheFace) {
 }
 
 TEST(RimThroughFace, StopsThere) {
-  Flap flap(above);
+  Flap flap(above_rim);
   const auto result = flap.move({2, 2, 2}, {2, 2, 2.75}, At_contact::stop);
   expect_time(result, 1, 3);
   EXPECT_NEAR(result.position[2], 2.25, 1e-12);
@@ -103,7 +103,7 @@ TEST(RimThroughFace, StopsThere) {
 }
 
 TEST(RimThroughFace, PushesTheFace) {
-  Flap flap(above);
+  Flap flap(above_rim);
   EXPECT_EQ(flap.move({2, 2, 2}, {2, 2, 2.75}, At_contact::push).end, Move_end::reached);
   double height = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -115,7 +115,7 @@ TEST(RimThroughFace, PushesTheFace) {
 
 // Whatever else is hit: an edge of the body, later.
 TEST(RimThroughFace, IsTheFirstOfAllHits) {
-  Flap flap({above[0], above[1], above[2], {1.75, 1.5, 2.28125}, {1.75, 2.5, 2.28125}});
+  Flap flap({above_rim[0], above_rim[1], above_rim[2], {1.75, 1.5, 2.28125}, {1.75, 2.5, 2.28125}});
   const auto result = flap.move({2, 2, 2}, {2, 2, 2.75});
   expect_time(result, 1, 3);
   EXPECT_EQ(result.hit->resident.feature, Body_feature::face);
@@ -123,7 +123,7 @@ TEST(RimThroughFace, IsTheFirstOfAllHits) {
 
 // The tip of two walls, one below the face and one above it.
 TEST(RimThroughFace, IsThatOfTheWallDrawnThrough) {
-  std::vector<Point<3>> level = above;
+  std::vector<Point<3>> level = above_rim;
   for (Point<3>& x : level) x[2] = 2;
   Flap flap(level, true, true);
   for (const double height : {2.5, 1.5}) {

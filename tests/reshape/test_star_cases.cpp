@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "reshape/dimensions.h"
 #include "reshape/grids.h"
 #include "reshape/star_scene.h"
 
@@ -17,14 +18,7 @@ using test::at;
 
 template <class Dimension>
 class StarCases : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-struct Name_of_dimension {
-  template <class Dimension>
-  static std::string GetName(int) {
-    return std::to_string(Dimension::value) + "D";
-  }
-};
-TYPED_TEST_SUITE(StarCases, Dimensions, Name_of_dimension);
+TYPED_TEST_SUITE(StarCases, test::Dimensions, test::Name_of_dimension);
 
 /// Four triangles around point 0, of which those below are solid.
 template <int D>
@@ -125,7 +119,7 @@ TYPED_TEST(StarCases, BothPartsAtAPinchedVertexAreOccupied) {
 
 /// Six triangles around point 0; a wall from there to the left ends there.
 template <int D>
-Cell_soup<D> tip() {
+Cell_soup<D> tip_of_six() {
   test::Flat_soup<D> flat{{0, 0}, {4, 0}, {2, 4}, {-2, 4}, {-4, 0}, {-2, -4}, {2, -4}};
   flat.add_fan(6);
   flat.add_wall(0, 4);
@@ -135,7 +129,7 @@ Cell_soup<D> tip() {
 TYPED_TEST(StarCases, BothSidesOfATipAreOneSector) {
   constexpr int D = TypeParam::value;
   for (const double z : {0.0, 0.125}) {
-    test::Star_scene<D> scene(tip<D>());
+    test::Star_scene<D> scene(tip_of_six<D>());
     // From above the wall round its tip to below it.
     scene.add_body({at<D>(-1, 0.5, z), at<D>(0.5, 0.0625, z), at<D>(-1, -0.5, z)});
     EXPECT_EQ(scene.end_of(at<D>(-0.5, 0)), Move_end::reached);
@@ -346,7 +340,7 @@ TYPED_TEST(StarCases, APointMayLeaveTheFrameOfThePlanes) {
 TYPED_TEST(StarCases, TheSizeOfTheSceneDoesNotMatter) {
   constexpr int D = TypeParam::value;
   for (const double scale : {1e-6, 1e6, 0x1p-60, 0x1p60}) {
-    Cell_soup<D> soup = tip<D>();
+    Cell_soup<D> soup = tip_of_six<D>();
     for (Point<D>& x : soup.points)
       for (double& c : x) c *= scale;
     test::Star_scene<D> scene(soup);

@@ -14,7 +14,7 @@ namespace cellwalk {
 namespace {
 
 template <int D>
-void expect_all_right(bool generic, std::size_t worlds) {
+void expect_toggles_right(bool generic, std::size_t worlds) {
   test::Closing_tally tally;
   test::Growth_tally growth;
   const std::size_t count = std::max(oracle::scaled_count(worlds), worlds / 4 + 1);
@@ -51,10 +51,10 @@ void expect_all_right(bool generic, std::size_t worlds) {
   EXPECT_GT(growth.opened + growth.excavated, tally.changes / 20);
 }
 
-TEST(ToggleOracle, Generic2D) { expect_all_right<2>(true, 30); }
-TEST(ToggleOracle, Degenerate2D) { expect_all_right<2>(false, 30); }
-TEST(ToggleOracle, Generic3D) { expect_all_right<3>(true, 10); }
-TEST(ToggleOracle, Degenerate3D) { expect_all_right<3>(false, 10); }
+TEST(ToggleOracle, Generic2D) { expect_toggles_right<2>(true, 30); }
+TEST(ToggleOracle, Degenerate2D) { expect_toggles_right<2>(false, 30); }
+TEST(ToggleOracle, Generic3D) { expect_toggles_right<3>(true, 10); }
+TEST(ToggleOracle, Degenerate3D) { expect_toggles_right<3>(false, 10); }
 
 }  // namespace
 }  // namespace cellwalk

@@ -10,12 +10,13 @@
 #include <array>
 #include <vector>
 
+#include "reshape/dimensions.h"
 #include "reshape/grids.h"
 
 namespace cellwalk {
 namespace {
 
-constexpr Reshape_options hold{.at_contact = At_contact::hold};
+using test::hold;
 
 template <int D>
 struct Scene {

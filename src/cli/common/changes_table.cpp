@@ -18,7 +18,7 @@ struct Change_words {
 };
 
 /// By Change_kind.
-constexpr std::array<Change_words, change_kind_count> words{{{"open", "opened", "facet"},
+constexpr std::array<Change_words, change_kind_count> change_words{{{"open", "opened", "facet"},
                                                              {"close", "closed", "facet"},
                                                              {"excavate", "excavated", "cell"},
                                                              {"fill", "filled", "cell"},
@@ -105,7 +105,7 @@ void Changes_table<D>::write(std::uint32_t step, const Change_outcome& outcome) 
   const auto row = [&](const char* status, const std::string& body, const std::string& particle,
                        const char* feature, const std::string& number) {
     table_->row(step == 0 ? "" : std::to_string(step), outcome.change,
-                words[static_cast<std::size_t>(outcome.kind)].verb, status, cell, facet, x[0], x[1],
+                change_words[static_cast<std::size_t>(outcome.kind)].verb, status, cell, facet, x[0], x[1],
                 D == 3 ? x[D - 1] : nothing, body, particle, feature, number, outcome.result.reason);
   };
   if (outcome.result.is_made) return row("made", "", "", "", "");
@@ -128,7 +128,7 @@ std::uint64_t Changes_table<D>::made() const {
 template <int D>
 nlohmann::ordered_json Changes_table<D>::to_json() const {
   nlohmann::ordered_json json;
-  for (std::size_t k = 0; k < words.size(); ++k) json[words[k].done] = made_[k];
+  for (std::size_t k = 0; k < change_words.size(); ++k) json[change_words[k].done] = made_[k];
   if (cuts_.edges != 0)
     json["cuts"] = {{"edges", cuts_.edges},   {"split", cuts_.split},   {"snapped", cuts_.snapped},
                     {"facets", cuts_.facets}, {"parted", cuts_.opened}, {"rim", cuts_.rim},
@@ -141,10 +141,10 @@ nlohmann::ordered_json Changes_table<D>::to_json() const {
 template <int D>
 std::string Changes_table<D>::describe() const {
   std::string text;
-  for (std::size_t k = 0; k < words.size(); ++k)
+  for (std::size_t k = 0; k < change_words.size(); ++k)
     if (made_[k] != 0)
-      text += fmt::format("{}{} {}{} {}", text.empty() ? "" : ", ", made_[k], words[k].thing,
-                          made_[k] == 1 ? "" : "s", words[k].done);
+      text += fmt::format("{}{} {}{} {}", text.empty() ? "" : ", ", made_[k], change_words[k].thing,
+                          made_[k] == 1 ? "" : "s", change_words[k].done);
   if (cuts_.edges != 0)
     text += fmt::format(
         " ({} edges passed: {} split, {} at an end; {} facets, {} vertices parted, {} at rims, {} held, {} "

@@ -45,7 +45,7 @@ bool has_ended(const char* begin, const char* end) {
 }
 
 /// True of the name of a file or folder that a run writes, or of an unfinished file.
-bool is_of_a_run(const fs::path& name) {
+bool is_result_name(const fs::path& name) {
   static constexpr std::array<std::string_view, 11> names{
       "changes.csv",  "contacts.csv", "forces.csv", "frames",    "motion.gz", "picture.png",
       "record.trace", "run.json",     "run.pvd",    "walls.csv", "walls.vtu"};
@@ -59,10 +59,10 @@ fs::path stranger_in(const fs::path& folder) {
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure); !failure && entry != fs::directory_iterator();
        entry.increment(failure))
-    if (!is_of_a_run(entry->path().filename())) return entry->path();
+    if (!is_result_name(entry->path().filename())) return entry->path();
   for (fs::directory_iterator entry(folder / "frames", failure);
        !failure && entry != fs::directory_iterator(); entry.increment(failure))
-    if (entry->path().extension() != ".vtu" && !is_of_a_run(entry->path().filename())) return entry->path();
+    if (entry->path().extension() != ".vtu" && !is_result_name(entry->path().filename())) return entry->path();
   return {};
 }
 

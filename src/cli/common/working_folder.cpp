@@ -63,7 +63,7 @@ bool has_checkpoint(const fs::path& folder) {
 
 /// True of what a process made here, even if it was killed at once, and of what one left that was killed
 /// while it removed this. A link is none.
-bool is_of_a_run(const fs::path& folder) {
+bool is_working_folder(const fs::path& folder) {
   std::error_code failure;
   if (!fs::is_directory(fs::symlink_status(folder, failure))) return false;
   if (fs::is_regular_file(fs::symlink_status(folder / "lock", failure))) return true;
@@ -116,7 +116,7 @@ std::unique_ptr<Working_folder> Working_folder::make(const fs::path& destination
       folder->lock();  // before a signal may remove it: another process may be in it
       return true;
     });
-  } else if (!is_of_a_run(folder->path_)) {
+  } else if (!is_working_folder(folder->path_)) {
     throw Error(Error_code::usage,
                 folder->shown() + ": was not made by a run: remove it, or give another folder");
   } else {
@@ -176,7 +176,7 @@ void Working_folder::sort_out_earlier() {
 
 std::unique_ptr<Working_folder> Working_folder::take_up(const fs::path& destination) {
   std::unique_ptr<Working_folder> folder(new Working_folder(destination));
-  if (!is_of_a_run(folder->path_))
+  if (!is_working_folder(folder->path_))
     throw Error(Error_code::usage,
                 folder->shown() +
                     ": is no folder of a run that did not end: only one with --checkpoint-every leaves it");

@@ -12,13 +12,13 @@ namespace cellwalk::detail {
 namespace {
 
 /// Where an edge that sweeps a triangle first meets a wall in the plane of the triangle.
-struct Meeting {
+struct Wall_meeting {
   Fraction time;
   Exact_point<3> point;
   Facet_feature feature;
   Half_facet wall;
 
-  bool is_before(const Meeting& other) const {
+  bool is_before(const Wall_meeting& other) const {
     if (time < other.time || other.time < time) return time < other.time;
     if (feature.kind != other.feature.kind) return feature.kind < other.feature.kind;
     return wall < other.wall;
@@ -38,16 +38,16 @@ Exact_point<3> point_at(const Ring_vector<3>& x, const std::array<Point<3>, 3>& 
 
 /// The first of the corners of a part of the triangle abq. The time is constant on lines through q, so that
 /// one of them off q is met first.
-std::optional<Meeting> first_meeting(const Snapshot<3>& snapshot, Half_facet wall,
+std::optional<Wall_meeting> first_wall_meeting(const Snapshot<3>& snapshot, Half_facet wall,
                                      const Triangle_in_plane& triangle) {
   const Cell_view<3> cell = snapshot.view(snapshot.cell_of(wall));
   const std::size_t i = snapshot.facet_of(wall);
-  std::optional<Meeting> first;
+  std::optional<Wall_meeting> first;
   for (const Ring_vector<3>& x : triangle.part_of(cell, i)) {
     const Ring moving = x[0] + x[1];
     if (CGAL::is_zero(moving)) continue;
     const Exact_point<3> point = point_at(x, triangle.corners());
-    Meeting met{Fraction(x[1], moving), point, lowest_feature<3>(cell, i, point), wall};
+    Wall_meeting met{Fraction(x[1], moving), point, lowest_feature<3>(cell, i, point), wall};
     if (!first || met.is_before(*first)) first = std::move(met);
   }
   return first;
@@ -72,13 +72,13 @@ std::optional<Contact<3>> wall_in_wedge(const Snapshot<3>& snapshot, const Verte
   find_candidate_walls(snapshot, {a, b, q, q}, candidates, counts);
   if (candidates.walls.empty()) return {};
   const Triangle_in_plane triangle({a, b, q}, counts.walk);
-  std::optional<Meeting> first;
+  std::optional<Wall_meeting> first;
   for (const Half_facet wall : candidates.walls) {
     const Cell_view<3> cell = snapshot.view(snapshot.cell_of(wall));
     const std::size_t i = snapshot.facet_of(wall);
     if (!triangle.holds(cell, i) || !triangle.overlaps(cell, i)) continue;
     ++counts.clipped;
-    std::optional<Meeting> met = first_meeting(snapshot, wall, triangle);
+    std::optional<Wall_meeting> met = first_wall_meeting(snapshot, wall, triangle);
     if (met && (!first || met->is_before(*first))) first = std::move(met);
   }
   if (!first) return {};

@@ -9,13 +9,13 @@
 namespace cellwalk::io {
 namespace {
 
-struct Points {
+struct Numbered_points {
   std::vector<Point<2>> points;
   std::uint32_t base = 0;  ///< the number of the first point: 0 or 1
 };
 
 /// Reads `count dimension attributes markers` (line already current) and the rows of points.
-Points read_points(Line_reader& in) {
+Numbered_points read_points(Line_reader& in) {
   const std::uint64_t count = in.count("the number of points");
   if (!in.at_line_end()) {
     const std::uint64_t dimension = in.count("the dimension");
@@ -23,7 +23,7 @@ Points read_points(Line_reader& in) {
       in.fail("a .poly file of dimension 3 (TetGen's): write the surface as OFF, PLY or STL instead");
     if (dimension != 2) in.fail(fmt::format("dimension {}: only 2 is read", dimension));
   }
-  Points result;
+  Numbered_points result;
   result.points.reserve(in.plausible(count, 6));
   for (std::uint64_t i = 0; i < count; ++i) {
     in.need_line(fmt::format("point {} of {}", i + 1, count));
@@ -40,7 +40,7 @@ Points read_points(Line_reader& in) {
   return result;
 }
 
-Points points_beside(const std::string& name) {
+Numbered_points points_beside(const std::string& name) {
   const std::filesystem::path beside = std::filesystem::path(name).replace_extension(".node");
   const std::string text = load(beside);
   Line_reader in(beside.string(), text);
@@ -53,7 +53,7 @@ Points points_beside(const std::string& name) {
 Planar_domain parse_poly(const std::string& name, std::string_view text, Read_report* report) {
   Line_reader in(name, text);
   in.need_line("the number of points");
-  Points read = read_points(in);
+  Numbered_points read = read_points(in);
   if (read.points.empty()) read = points_beside(name);
   Planar_domain domain;
   domain.points = std::move(read.points);
