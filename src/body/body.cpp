@@ -10,12 +10,12 @@
 #include <tuple>
 #include <utility>
 
-#include "body_faces.h"
+#include "body/region/point_box.h"
+#include "body/registration/register_again.h"
+#include "body/shape/body_faces.h"
+#include "body/step/step_at_target.h"
+#include "body/step/vertex_move.h"
 #include "body_state.h"
-#include "point_box.h"
-#include "register_again.h"
-#include "step_at_target.h"
-#include "vertex_move.h"
 
 namespace cellwalk {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "body/step/vertex_move.h"
 #include "body_state.h"
-#include "vertex_move.h"
 
 namespace cellwalk::detail {
 namespace {

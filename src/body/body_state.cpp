@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "chains_in_place.h"
+#include "body/step/chains_in_place.h"
 
 namespace cellwalk::detail {
 

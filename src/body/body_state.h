@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "body_topology.h"
-#include "region_cache.h"
-#include "region_pool.h"
-#include "registration.h"
+#include "body/region/region_cache.h"
+#include "body/region/region_pool.h"
+#include "body/registration/registration.h"
+#include "body/shape/body_topology.h"
 
 namespace cellwalk::detail {
 

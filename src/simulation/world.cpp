@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check_motion.h"
+#include "simulation/traces/check_motion.h"
 
 namespace cellwalk {
 namespace {

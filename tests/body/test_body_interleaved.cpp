@@ -13,8 +13,8 @@
 
 #include "body/random_bodies.h"
 #include "body/random_edits.h"
+#include "body/with_regions.h"
 #include "walk/oracle_trial.h"
-#include "with_regions.h"
 
 namespace cellwalk::test {
 namespace {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "body/rooms.h"
-#include "with_regions.h"
+#include "body/with_regions.h"
 
 namespace cellwalk::test {
 namespace {

@@ -20,8 +20,8 @@
 
 #include "body/random_bodies.h"
 #include "body/rooms.h"
+#include "body/with_regions.h"
 #include "walk/oracle_trial.h"
-#include "with_regions.h"
 
 namespace cellwalk::test {
 namespace {

@@ -4,6 +4,7 @@
 #define CELLWALK_TESTS_RESHAPE_DIMENSIONS_H
 
 #include <cellwalk/reshape/reshaping.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -12,8 +12,8 @@
 namespace cellwalk {
 namespace {
 
-constexpr std::uint32_t moved_vertex = 0, west = 1, line_begin = 2, wall_begin = 3, wall_middle = 4, wall_end = 5,
-                        line_end = 6;
+constexpr std::uint32_t moved_vertex = 0, west = 1, line_begin = 2, wall_begin = 3, wall_middle = 4,
+                        wall_end = 5, line_end = 6;
 
 // Below the vertex four facets lie in one line: one that is open, two walls, one that is open. One cell lies
 // below them all, so that the way behind the walls is shorter than that through the cells at the vertex.

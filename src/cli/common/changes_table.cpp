@@ -19,11 +19,11 @@ struct Change_words {
 
 /// By Change_kind.
 constexpr std::array<Change_words, change_kind_count> change_words{{{"open", "opened", "facet"},
-                                                             {"close", "closed", "facet"},
-                                                             {"excavate", "excavated", "cell"},
-                                                             {"fill", "filled", "cell"},
-                                                             {"cut", "made", "cut"},
-                                                             {"sew", "sewn", "point"}}};
+                                                                    {"close", "closed", "facet"},
+                                                                    {"excavate", "excavated", "cell"},
+                                                                    {"fill", "filled", "cell"},
+                                                                    {"cut", "made", "cut"},
+                                                                    {"sew", "sewn", "point"}}};
 
 /// The mean of the vertices of a facet, or of a cell if there is none.
 template <int D>

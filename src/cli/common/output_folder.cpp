@@ -62,7 +62,8 @@ fs::path stranger_in(const fs::path& folder) {
     if (!is_result_name(entry->path().filename())) return entry->path();
   for (fs::directory_iterator entry(folder / "frames", failure);
        !failure && entry != fs::directory_iterator(); entry.increment(failure))
-    if (entry->path().extension() != ".vtu" && !is_result_name(entry->path().filename())) return entry->path();
+    if (entry->path().extension() != ".vtu" && !is_result_name(entry->path().filename()))
+      return entry->path();
   return {};
 }
 

@@ -39,7 +39,7 @@ Exact_point<3> point_at(const Ring_vector<3>& x, const std::array<Point<3>, 3>& 
 /// The first of the corners of a part of the triangle abq. The time is constant on lines through q, so that
 /// one of them off q is met first.
 std::optional<Wall_meeting> first_wall_meeting(const Snapshot<3>& snapshot, Half_facet wall,
-                                     const Triangle_in_plane& triangle) {
+                                               const Triangle_in_plane& triangle) {
   const Cell_view<3> cell = snapshot.view(snapshot.cell_of(wall));
   const std::size_t i = snapshot.facet_of(wall);
   std::optional<Wall_meeting> first;

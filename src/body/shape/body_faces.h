@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The faces of a body: that no wall pierces them. 3D.
+#ifndef CELLWALK_BODY_SHAPE_BODY_FACES_H
+#define CELLWALK_BODY_SHAPE_BODY_FACES_H
+
+#include <cellwalk/kernel/error.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "body/body_state.h"
+
+namespace cellwalk::detail {
+
+/// Where it stands.
+/// \pre its edges are not stale
+Face_registration registered_face(const Body_state<3>& body, std::uint32_t face, Face_counts& counts);
+
+struct Pierced_face {
+  std::uint32_t face;
+  Half_facet wall;
+};
+
+/// Registers all faces. Returns those that a wall pierces, ascending: the body must not be used then.
+std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& counts);
+
+/// \throw Error(code) naming the face
+[[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code);
+
+/// Before faces are swept after moves that left them alone: registers them all, so all that they are asked
+/// about is needed.
+/// \throw Error(usage) if a wall pierces one
+void take_up_faces(Body_state<3>& body, Body_counts& counts);
+
+/// Sweeps the faces of a vertex that goes a way: puts the first contact in, or into the scratch what they
+/// rest on then.
+/// \pre its edges were swept, and their chains are in the scratch
+void sweep_faces(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
+                 const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_SHAPE_BODY_FACES_H

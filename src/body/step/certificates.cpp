@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/body/certificates.h>
+
+#include "body/body_state.h"
+
+namespace cellwalk::detail {
+
+template <int D>
+void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts) {
+  body.leave_region(counts);
+  Body_state<D>& state = *body.state_;
+  state.certificates = chosen;
+  const Body_certificates used = worthwhile(chosen, state.topology, state.positions.size());
+  state.region = Region_cache<D>(state.positions.size(), state.chains.size(), used);
+  state.pool = Region_pool<D>(state.positions.size(), used);
+  state.pool.prepare(*state.snapshot, state.particles);
+}
+
+template void use_certificates(Body<2>&, const Body_certificates&, Body_counts&);
+template void use_certificates(Body<3>&, const Body_certificates&, Body_counts&);
+
+}  // namespace cellwalk::detail
