@@ -6,8 +6,6 @@
 - Headings get labels, since Doxygen knows those of GitHub neither within a page nor from another one. A label that is not there is a
   warning, so links are checked here too.
 - Pictures are named from the root, where Doxygen looks for them.
-- Code spans of the tables of errors.md become HTML with numbered entities, since Doxygen takes backslashes, quotes and dashes in them for
-  its own. It does not know such entities either, and escapes them: docs.sh makes them entities again in the page that Doxygen writes.
 """
 
 import os
@@ -15,14 +13,8 @@ import re
 import sys
 from pathlib import Path
 
-SPECIAL = str.maketrans({c: f"&#{ord(c)};" for c in "&<>\\\"'@#%$*_~`-"})
 PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s:]+)\)")
 LINK = re.compile(r"(?<!!)\]\(([^)\s#]*\.md)?#([\w-]+)\)")
-
-
-def html(match):
-    pieces = [piece.translate(SPECIAL) for piece in match[2].split("\\|")]
-    return f"<code>{'&#124;'.join(pieces)}</code>"
 
 
 def anchor(heading):
@@ -57,8 +49,6 @@ def filtered(page, text):
         is_first = is_first and not heading
         if not in_code:
             line = PICTURE.sub(picture, LINK.sub(link, line))
-            if os.path.basename(page) == "errors.md" and line.startswith("| "):
-                line = re.sub(r"(`{1,2})(?! )(.*?)(?<!`)\1(?!`)", html, line)
         lines.append(line)
     return "\n".join(lines)
 

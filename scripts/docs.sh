@@ -19,7 +19,5 @@ if [ -s build/docs/warnings.txt ]; then
   echo "docs: Doxygen $(doxygen --version) warns; links that lead nowhere are among such warnings" >&2
   exit 1
 fi
-# Numbered entities, by which docs/page_filter.py writes what Doxygen would take for its own.
-sed -i -E 's/&amp;(#[0-9]+;)/\&\1/g' build/docs/html/md_docs_errors.html
 echo "docs: $(find build/docs/html -name '*.html' | wc -l) pages, no warnings"
 echo "docs: open build/docs/html/index.html"

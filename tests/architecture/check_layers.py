@@ -50,7 +50,7 @@ PREDICATE = re.compile(
     r"CGAL::(orientation|coplanar|collinear|coplanar_orientation|left_turn|right_turn|side_of_\w+|do_intersect)\b"
     r"|\borientation_[23]_object\b"
     r"|(?<![\w:])orientation\s*\(")
-# Names that were given up, and those in use. CHANGELOG.md and docs/migration.md may say what was.
+# Names that were given up, and those in use. CHANGELOG.md may say what was.
 GIVEN_UP = {"Wall_contact": "Contact", "rounded_time": "Contact::time", "Contact_policy": "Step_rule", "Edge_rule": "Step_rule",
             "Change_result": "Outcome", "peel": "split_vertex", "mean_of": "centroid", "Told": "State_request", "Stand_in": "Remote_body",
             "elsewhere_": "remote_bodies_", "hindrance": "severity, why_not_shared", "find_out_if_apart": "update_is_apart",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Runs every row of docs/errors.md and compares exit code and message; checks that the page names every error of the sources.
+"""Runs every row of tests/cli/errors/README.md and compares exit code and message; checks that the page names every error of the sources.
 
 usage: test_errors.py ROOT PROGRAM [OPTIONAL PARTS THAT ARE MISSING ...]      parts: meshing vtk viewer python
 """
@@ -74,12 +74,12 @@ def run_row(row, base, environment):
 
 def main():
     root, program, missing = Path(sys.argv[1]), Path(sys.argv[2]), set(sys.argv[3:])
-    base_commands, rows, page = read_page((root / "docs/errors.md").read_text(encoding="utf-8"))
+    base_commands, rows, page = read_page((root / "tests/cli/errors/README.md").read_text(encoding="utf-8"))
     problems = []
     if len(rows) < FEWEST_ROWS:
         problems.append(f"only {len(rows)} rows can be read")
     unknown = {(part, f"{file}:{line}") for file, line, part in messages(root) if part not in page}
-    problems += [f"{where}: docs/errors.md does not name '{part}'" for part, where in sorted(unknown)]
+    problems += [f"{where}: tests/cli/errors/README.md does not name '{part}'" for part, where in sorted(unknown)]
     rows = [row for row in rows if not row["needs"] & missing]
 
     environment = dict(os.environ, PATH=f"{program.parent}:{os.environ['PATH']}", LC_ALL="C.UTF-8")
@@ -87,7 +87,7 @@ def main():
         subprocess.run(["bash", "-e", "-c", base_commands], cwd=base, env=environment, check=True, stdout=subprocess.DEVNULL)
         with concurrent.futures.ThreadPoolExecutor(PROCESSES) as pool:
             answers = pool.map(lambda row: run_row(row, base, environment), rows)
-            problems += [f"docs/errors.md:{row['line']}: {answer}" for row, answer in zip(rows, answers) if answer]
+            problems += [f"tests/cli/errors/README.md:{row['line']}: {answer}" for row, answer in zip(rows, answers) if answer]
     print("\n".join(problems))
     print(f"errors: {len(rows)} rows run, {len(problems)} problems")
     return 1 if problems else 0

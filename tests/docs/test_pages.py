@@ -184,8 +184,7 @@ def main():
         if only_runs:
             continue
         problems += check_links(page, counts)
-        if page.name != "errors.md":  # which has wrong ones on purpose
-            problems += check_options(page.name, CODE.findall(page.read_text(encoding="utf-8")), help_texts, counts)
+        problems += check_options(page.name, CODE.findall(page.read_text(encoding="utf-8")), help_texts, counts)
     if not only_runs:
         problems += check_index(root, pages)
     commands = "" if only_runs else help_texts.of(()).partition("Subcommands:")[2]
