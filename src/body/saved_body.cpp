@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/body/saved_body.h>
+#include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/kernel/checksum.h>
 #include <cellwalk/internal/walk/saved_particle.h>
@@ -43,14 +44,12 @@ std::array<std::uint64_t, 5> identity(const Snapshot<D>& snapshot) {
           snapshot.points().size()};
 }
 
-}  // namespace
-
 /// The parts of a body, and a body made of them.
 template <int D>
 class Saved_body {
  public:
   static void write(const Body<D>& body, Byte_writer& out) {
-    Body_state<D>& state = *body.state_;  // only read
+    auto& state = const_cast<Body_state<D>&>(Body_access<D>::state_of(body));  // only read
     state.check_epoch();
     out(identity(*state.snapshot), state.positions, state.topology.edges(), state.topology.faces());
     Body_certificates chosen = state.certificates;
@@ -75,7 +74,7 @@ class Saved_body {
     visit_state(in, *state);
     in.expect_end();
     check(*state);
-    Body<D> body(std::move(state));
+    Body<D> body = Body_access<D>::body_of(std::move(state));
     check_registration(body);
     return body;
   }
@@ -141,6 +140,7 @@ class Saved_body {
   }
 };
 
+}  // namespace
 }  // namespace detail
 
 template <int D>

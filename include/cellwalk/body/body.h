@@ -19,19 +19,11 @@
 
 namespace cellwalk {
 
-template <int D>
-class Body;
-
 namespace detail {
 template <int D>
 struct Body_state;
-struct Body_certificates;
-template <int D>
-void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts);
 template <int D>
 class Body_access;
-template <int D>
-class Saved_body;
 }  // namespace detail
 
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is
@@ -131,14 +123,11 @@ class Body {
   void validate() const;
 
  private:
-  friend void detail::use_certificates<D>(Body&, const detail::Body_certificates&, Body_counts&);
-
   explicit Body(std::unique_ptr<detail::Body_state<D>> state);
 
   std::unique_ptr<detail::Body_state<D>> state_;
 
   friend detail::Body_access<D>;
-  friend detail::Saved_body<D>;
 };
 
 extern template class Body<2>;

@@ -62,11 +62,6 @@ class Change_schedule {
   struct With_points {
     Name name;
     std::vector<std::uint32_t> points;
-
-    template <class Archive>
-    void archive(Archive& a) {
-      a(name, points);
-    }
   };
   struct Planned {
     std::size_t number = 0;
@@ -81,18 +76,8 @@ class Change_schedule {
     bool has_sewn = false;                      // or tried to
 
     bool is_done() const { return facets.empty() && cells.empty() && !blade && !suture; }
-
-    template <class Archive>
-    void archive(Archive& a) {
-      a(number, kind, step, until, facets, cells, blade, suture, has_sewn);
-    }
   };
   Change_schedule() = default;
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(planned_, stitches_);
-  }
   void make_cut(Reshaping<D>& reshaping, Planned& planned, std::vector<Change_outcome>& outcomes);
   void sew(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned, std::uint32_t step,
            std::vector<Change_outcome>& outcomes);
@@ -102,9 +87,7 @@ class Change_schedule {
   std::vector<Planned> planned_;
   std::vector<Stitch> stitches_;  // not made yet, of all cuts
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
-  friend detail::Saved_simulation<D>;
+  friend detail::State_access<D>;
 };
 
 extern template class Change_schedule<2>;

@@ -60,16 +60,6 @@ class Deformable {
   double height_energy(const Vector<D>& gravity) const;
   void predict(double dt);
   void limit(double most);
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(matching_, velocities_, moved_, targets_, stored_);
-    if constexpr (Archive::is_reading) {
-      const std::size_t vertices = body_.vertex_count();
-      if (velocities_.size() != vertices || targets_.size() != vertices || moved_.size() != vertices)
-        Archive::refuse();
-    }
-  }
 
   Body<D> body_;
   Shape_matching<D> matching_;
@@ -78,8 +68,7 @@ class Deformable {
   /// The bound of the kinetic energy, including the energy stored in the deformation.
   double stored_ = 0;
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
+  friend detail::State_access<D>;
 };
 
 extern template class Deformable<2>;

@@ -60,11 +60,6 @@ class Elastic_foundation {
   /// One that knows no vertex yet.
   Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft)
       : snapshot_(&snapshot), soft_(soft) {}
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(least_yield_, starts_, yields_, may_yield_, first_, neighbours_, active_);
-  }
   /// True if all that was read refers to something.
   bool is_consistent() const;
 
@@ -77,9 +72,7 @@ class Elastic_foundation {
   std::vector<std::uint32_t> first_, neighbours_;  ///< of each point, those along its walls
   std::vector<std::uint32_t> active_;              ///< that yield, or did in the step before; ascending
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
-  friend detail::Saved_simulation<D>;
+  friend detail::State_access<D>;
 };
 
 extern template class Elastic_foundation<2>;

@@ -55,13 +55,6 @@ class Rigid_body {
  private:
   Point<D> middle() const;
   Point<D> on_path() const;
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(shape_, velocity_, spin_, angle_, turning_, travelled_, path_length_, targets_);
-    if constexpr (Archive::is_reading)
-      if (shape_.size() != body_.vertex_count() || targets_.size() != shape_.size()) Archive::refuse();
-  }
 
   Body<D> body_;
   std::vector<Vector<D>> shape_;  ///< from the centre of the vertices
@@ -73,8 +66,7 @@ class Rigid_body {
   double travelled_ = 0, path_length_ = 0;
   std::vector<Point<D>> targets_;
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
+  friend detail::State_access<D>;
 };
 
 extern template class Rigid_body<2>;

@@ -77,13 +77,6 @@ class Rod {
   double along(std::size_t vertex) const;
   detail::Rod_state<D> state() const;
   detail::Natural_bend<D> bend() const;
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(waypoints_, targets_, direction_, heading_, inside_, twist_, next_, waited_);
-    if constexpr (Archive::is_reading)
-      if (waypoints_.size() < 2 || next_ == 0 || next_ > waypoints_.size()) Archive::refuse();
-  }
 
   const Snapshot<D>* snapshot_;
   Body<D> body_;
@@ -96,8 +89,7 @@ class Rod {
   std::size_t next_ = 1;
   std::uint32_t waited_ = 0;
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
+  friend detail::State_access<D>;
 };
 
 extern template class Rod<2>;

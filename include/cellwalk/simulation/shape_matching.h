@@ -44,16 +44,6 @@ class Shape_matching {
   static constexpr int most_monomials = D + D * (D + 1) / 2;
   using Monomials = std::array<double, most_monomials>;
 
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    const std::size_t masses = masses_.size(), rest = rest_.size(), monomials = monomials_.size();
-    a(radius_, total_mass_, masses_, rest_, monomials_, linear_inverse_, inverse_, is_full_);
-    if constexpr (Archive::is_reading)
-      if (masses_.size() != masses || rest_.size() != rest || monomials_.size() != monomials)
-        Archive::refuse();
-  }
-
   Shape_material material_;
   double radius_ = 1;  ///< of the rest shape; the following members are in units of it
   double total_mass_ = 0;
@@ -64,8 +54,7 @@ class Shape_matching {
   std::array<Monomials, most_monomials> inverse_{};  ///< the same of the monomials
   bool is_full_ = false;                             ///< the rest shape has a volume
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
+  friend detail::State_access<D>;
 };
 
 /// The rotation nearest to a matrix (rows first), in the least-squares sense: its polar factor, corrected to

@@ -57,31 +57,14 @@ class Tissue {
   struct Edge {
     std::array<std::uint32_t, 2> ends;
     double rest;
-
-    template <class Archive>
-    void archive(Archive& a) {
-      a(ends, rest);
-    }
   };
   struct Simplex {
     std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> corners;
     double rest;  ///< D! times its volume
-
-    template <class Archive>
-    void archive(Archive& a) {
-      a(corners, rest);
-    }
   };
   /// One that knows no cell yet.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material)
       : snapshot_(&snapshot), material_(material) {}
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(least_move_, rest_, before_, wanted_, velocities_, may_move_, edges_, multipliers_, simplices_);
-    a(followers_, first_, neighbours_);
-  }
-
   /// True if all that was read refers to something.
   bool is_consistent() const;
 
@@ -106,9 +89,7 @@ class Tissue {
   std::vector<std::uint32_t> followers_;
   std::vector<std::uint32_t> first_, neighbours_;  ///< of each follower
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
-  friend detail::Saved_simulation<D>;
+  friend detail::State_access<D>;
 };
 
 extern template class Tissue<2>;

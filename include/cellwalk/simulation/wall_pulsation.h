@@ -49,27 +49,16 @@ class Wall_pulsation {
     Point<D> start;
     Vector<D> direction;  ///< of length 1 at walls, less between them
     Vector<D> bend;       ///< added at the ends of the motion
-
-    template <class Archive>
-    void archive(Archive& a) {
-      a(point, start, direction, bend);
-    }
   };
   /// One that moves nothing yet.
   explicit Wall_pulsation(const Pulsation<D>& pulsation) : pulsation_(pulsation) {}
-  /// All parts of its state that the scene and the environment do not tell.
-  template <class Archive>
-  void archive(Archive& a) {
-    a(movers_);
-  }
   void smooth_inside(const Snapshot<D>& snapshot, std::vector<char> may_move,
                      const std::vector<Vector<D>>& directions);
+
   Pulsation<D> pulsation_;
   std::vector<Mover> movers_;
 
-  friend detail::Byte_reader;
-  friend detail::Byte_writer;
-  friend detail::Saved_simulation<D>;
+  friend detail::State_access<D>;
 };
 
 extern template class Wall_pulsation<2>;

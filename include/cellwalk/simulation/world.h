@@ -182,7 +182,7 @@ class World {
   std::vector<std::optional<Remote_body>> remote_bodies_;  ///< of each body; empty: all are advanced here
   std::vector<Walk_counts> remote_counts_;                 ///< of each other part
   friend class World_part<D>;
-  friend detail::Saved_simulation<D>;
+  friend detail::State_access<D>;
 };
 
 extern template class World<2>;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/body/certificates.h>
 
 #include "body/body_state.h"
@@ -8,7 +9,7 @@ namespace cellwalk::detail {
 template <int D>
 void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts) {
   body.leave_region(counts);
-  Body_state<D>& state = *body.state_;
+  Body_state<D>& state = Body_access<D>::state_of(body);
   state.certificates = chosen;
   const Body_certificates used = worthwhile(chosen, state.topology, state.positions.size());
   state.region = Region_cache<D>(state.positions.size(), state.chains.size(), used);

@@ -21,7 +21,7 @@ template <int D>
 Run_changes<D>::Run_changes(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
                             detail::Byte_reader& saved)
     : environment_(environment),
-      schedule_(detail::Saved_simulation<D>(environment.snapshot(), scene).read_schedule(saved)),
+      schedule_(detail::State_access<D>(environment.snapshot(), scene).read_schedule(saved)),
       table_(environment.snapshot(), place.table("changes.csv", Changes_table<D>::columns())) {
   saved(table_, counts_);
 }

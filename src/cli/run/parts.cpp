@@ -50,7 +50,7 @@ Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place, World<D>
 template <int D>
 Run_parts<D>::Run_parts(const Run_input<D>& input, Result_files& place, bool is_recorded,
                         detail::Byte_reader& saved)
-    : world(detail::Saved_simulation<D>(input.environment.snapshot(), input.scene)
+    : world(detail::State_access<D>(input.environment.snapshot(), input.scene)
                 .read_world(saved, input.options.body)),
       files(place, input.environment, world, input.scene) {
   const Scene<D>& scene = input.scene;

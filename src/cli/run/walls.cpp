@@ -54,7 +54,7 @@ template <int D>
 Run_walls<D>::Run_walls(Result_files& place, Environment<D>& environment, const Scene<D>& scene,
                         const std::string& name, detail::Byte_reader& saved)
     : Run_walls(place, environment, scene, name, Still{}) {
-  const detail::Saved_simulation<D> parts(environment.snapshot(), scene);
+  const detail::State_access<D> parts(environment.snapshot(), scene);
   if (scene.walls->pulsation) pulsation_ = parts.read_pulsation(saved);
   if (scene.walls->soft) foundation_ = parts.read_foundation(saved);
   if (saved.next<bool>()) tissue_ = parts.read_tissue(saved);

@@ -5,6 +5,7 @@
 #include <cellwalk/internal/walk/saved_particle.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace cellwalk::detail {
@@ -34,8 +35,93 @@ void visit_parts(Archive& a, Stitch& stitch) {
   a(stitch.point, stitch.onto);
 }
 
+/// Of whatever State_access visits.
+template <class Archive, template <int> class Part, int D>
+requires requires(Archive& a, Part<D>& part) { State_access<D>::visit(a, part); }
+void visit_parts(Archive& a, Part<D>& part) { State_access<D>::visit(a, part); }
+
 template <int D>
-void Saved_simulation<D>::write(Byte_writer& out, const World<D>& world) {
+template <class Archive>
+void State_access<D>::visit(Archive& a, Wall_pulsation<D>& pulsation) {
+  a.list(pulsation.movers_, [&](auto& mover) { a(mover.point, mover.start, mover.direction, mover.bend); });
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Elastic_foundation<D>& walls) {
+  a(walls.least_yield_, walls.starts_, walls.yields_, walls.may_yield_, walls.first_, walls.neighbours_,
+    walls.active_);
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Tissue<D>& tissue) {
+  a(tissue.least_move_, tissue.rest_, tissue.before_, tissue.wanted_, tissue.velocities_, tissue.may_move_);
+  a.list(tissue.edges_, [&](auto& edge) { a(edge.ends, edge.rest); });
+  a(tissue.multipliers_);
+  a.list(tissue.simplices_, [&](auto& simplex) { a(simplex.corners, simplex.rest); });
+  a(tissue.followers_, tissue.first_, tissue.neighbours_);
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Change_schedule<D>& schedule) {
+  const auto visit_named = [&](auto& named) { a.list(named, [&](auto& one) { a(one.name, one.points); }); };
+  a.list(schedule.planned_, [&](auto& planned) {
+    a(planned.number, planned.kind, planned.step, planned.until);
+    visit_named(planned.facets);
+    visit_named(planned.cells);
+    a(planned.blade, planned.suture, planned.has_sewn);
+  });
+  a(schedule.stitches_);
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Deformable<D>& body) {
+  a(body.matching_, body.velocities_, body.moved_, body.targets_, body.stored_);
+  if constexpr (Archive::is_reading) {
+    const std::size_t vertices = body.body_.vertex_count();
+    if (body.velocities_.size() != vertices || body.targets_.size() != vertices ||
+        body.moved_.size() != vertices)
+      Archive::refuse();
+  }
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Shape_matching<D>& matching) {
+  const auto lengths = [&] {
+    return std::array{matching.masses_.size(), matching.rest_.size(), matching.monomials_.size()};
+  };
+  const auto before = lengths();
+  a(matching.radius_, matching.total_mass_, matching.masses_, matching.rest_, matching.monomials_,
+    matching.linear_inverse_, matching.inverse_, matching.is_full_);
+  if constexpr (Archive::is_reading)
+    if (lengths() != before) Archive::refuse();
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Rigid_body<D>& body) {
+  a(body.shape_, body.velocity_, body.spin_, body.angle_, body.turning_, body.travelled_, body.path_length_,
+    body.targets_);
+  if constexpr (Archive::is_reading)
+    if (body.shape_.size() != body.body_.vertex_count() || body.targets_.size() != body.shape_.size())
+      Archive::refuse();
+}
+
+template <int D>
+template <class Archive>
+void State_access<D>::visit(Archive& a, Rod<D>& rod) {
+  a(rod.waypoints_, rod.targets_, rod.direction_, rod.heading_, rod.inside_, rod.twist_, rod.next_,
+    rod.waited_);
+  if constexpr (Archive::is_reading)
+    if (rod.waypoints_.size() < 2 || rod.next_ == 0 || rod.next_ > rod.waypoints_.size()) Archive::refuse();
+}
+
+template <int D>
+void State_access<D>::write(Byte_writer& out, const World<D>& world) {
   world.check_epoch();
   out(world.steps_done_, world.particles_, world.velocities_, world.contacts_, world.counts_,
       world.entry_of_);
@@ -48,8 +134,7 @@ void Saved_simulation<D>::write(Byte_writer& out, const World<D>& world) {
 
 /// What kind it is follows from the scene: all that its constructor finds is then replaced.
 template <int D>
-Moving_body<D> Saved_simulation<D>::read_body(Byte_reader& in,
-                                              const std::optional<std::size_t>& entry) const {
+Moving_body<D> State_access<D>::read_body(Byte_reader& in, const std::optional<std::size_t>& entry) const {
   Body<D> body = restore_body<D>(snapshot_, in.next<std::vector<std::byte>>());
   const auto made = [&](auto kind) {
     in(kind);
@@ -66,7 +151,7 @@ Moving_body<D> Saved_simulation<D>::read_body(Byte_reader& in,
 }
 
 template <int D>
-World<D> Saved_simulation<D>::read_world(Byte_reader& in, const Body_options& options) const {
+World<D> State_access<D>::read_world(Byte_reader& in, const Body_options& options) const {
   World<D> world(snapshot_, scene_, options, typename World<D>::Empty{});
   in(world.steps_done_, world.particles_, world.velocities_, world.contacts_, world.counts_, world.entry_of_);
   const auto is_lost = [&](const Particle<D>& p) {
@@ -93,14 +178,14 @@ World<D> Saved_simulation<D>::read_world(Byte_reader& in, const Body_options& op
 }
 
 template <int D>
-Change_schedule<D> Saved_simulation<D>::read_schedule(Byte_reader& in) const {
+Change_schedule<D> State_access<D>::read_schedule(Byte_reader& in) const {
   Change_schedule<D> schedule;
   in(schedule);
   return schedule;
 }
 
 template <int D>
-Wall_pulsation<D> Saved_simulation<D>::read_pulsation(Byte_reader& in) const {
+Wall_pulsation<D> State_access<D>::read_pulsation(Byte_reader& in) const {
   if (!scene_.walls || !scene_.walls->pulsation) Byte_reader::refuse();
   Wall_pulsation<D> pulsation(*scene_.walls->pulsation);
   in(pulsation);
@@ -108,7 +193,7 @@ Wall_pulsation<D> Saved_simulation<D>::read_pulsation(Byte_reader& in) const {
 }
 
 template <int D>
-Elastic_foundation<D> Saved_simulation<D>::read_foundation(Byte_reader& in) const {
+Elastic_foundation<D> State_access<D>::read_foundation(Byte_reader& in) const {
   if (!scene_.walls || !scene_.walls->soft) Byte_reader::refuse();
   Elastic_foundation<D> foundation(snapshot_, *scene_.walls->soft);
   in(foundation);
@@ -117,7 +202,7 @@ Elastic_foundation<D> Saved_simulation<D>::read_foundation(Byte_reader& in) cons
 }
 
 template <int D>
-Tissue<D> Saved_simulation<D>::read_tissue(Byte_reader& in) const {
+Tissue<D> State_access<D>::read_tissue(Byte_reader& in) const {
   if (!scene_.walls || !scene_.walls->tissue) Byte_reader::refuse();
   Tissue<D> tissue(snapshot_, *scene_.walls->tissue);
   tissue.fixed_ = scene_.walls->fixed;
@@ -128,7 +213,7 @@ Tissue<D> Saved_simulation<D>::read_tissue(Byte_reader& in) const {
 
 template <int D>
 void save(Byte_writer& out, const World<D>& world) {
-  Saved_simulation<D>::write(out, world);
+  State_access<D>::write(out, world);
 }
 template <int D>
 void save(Byte_writer& out, const Change_schedule<D>& schedule) {
@@ -148,7 +233,7 @@ void save(Byte_writer& out, const Tissue<D>& tissue) {
 }
 
 #define CELLWALK_INSTANTIATE(D)                                   \
-  template class Saved_simulation<D>;                             \
+  template class State_access<D>;                                 \
   template void save(Byte_writer&, const World<D>&);              \
   template void save(Byte_writer&, const Change_schedule<D>&);    \
   template void save(Byte_writer&, const Wall_pulsation<D>&);     \

@@ -30,7 +30,7 @@ Bytes bytes_of(const World<D>& world) {
 template <int D>
 World<D> restored(const Snapshot<D>& snapshot, const Scene<D>& scene, const Bytes& bytes) {
   detail::Byte_reader in(bytes);
-  World<D> world = detail::Saved_simulation<D>(snapshot, scene).read_world(in, {});
+  World<D> world = detail::State_access<D>(snapshot, scene).read_world(in, {});
   in.expect_end();
   return world;
 }

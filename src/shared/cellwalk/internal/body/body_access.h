@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What the layer reshape needs of a body while the environment around it changes.
+// The one friend of bodies: what the layer reshape needs of them while the environment around them changes,
+// and their state, from which they are saved and restored.
 #ifndef CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
 #define CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
 
@@ -9,7 +10,9 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 
 namespace cellwalk::detail {
 
@@ -17,6 +20,11 @@ template <int D>
 class Body_access {
  public:
   explicit Body_access(Body<D>& body) : state_(body.state_.get()) {}
+
+  static Body_state<D>& state_of(Body<D>& body) { return *body.state_; }
+  static const Body_state<D>& state_of(const Body<D>& body) { return *body.state_; }
+  /// The body that has this state.
+  static Body<D> body_of(std::unique_ptr<Body_state<D>> state) { return Body<D>(std::move(state)); }
 
   const Snapshot<D>& snapshot() const;
   /// \throw Error(usage) if the environment was edited since the body was registered

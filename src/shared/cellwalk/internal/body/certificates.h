@@ -24,9 +24,11 @@ struct Body_certificates {
   std::size_t least_edges_a_vertex = 2;
 };
 
-// use_certificates(body, chosen, counts), declared with Body, chooses the certificates of one body, which
-// keeps them when it is copied or registered again. It gives the regions of the body up.
-// Throws Error(usage) if the environment was edited since the body was registered.
+/// Chooses the certificates of one body, which keeps them when it is copied or registered again. It gives the
+/// regions of the body up.
+/// \throw Error(usage) if the environment was edited since the body was registered
+template <int D>
+void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts);
 extern template void use_certificates(Body<2>&, const Body_certificates&, Body_counts&);
 extern template void use_certificates(Body<3>&, const Body_certificates&, Body_counts&);
 

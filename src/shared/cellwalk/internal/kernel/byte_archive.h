@@ -2,9 +2,9 @@
 // Values as bytes of this machine, written and read by the same enumeration of their parts: for states that
 // are saved and taken up again, and for messages among processes.
 //
-// A class has `template <class Archive> void archive(Archive& a) { a(first_, second_, ...); }`, which may be
-// private to it and to both of these as friends, or there is a function visit_parts(a, value) in its
-// namespace or in detail. Archive::is_reading tells the directions apart.
+// A class has `template <class Archive> void archive(Archive& a) { a(first_, second_, ...); }`, or there is a
+// function visit_parts(a, value) in its namespace or in detail. Archive::is_reading tells the directions
+// apart.
 #ifndef CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 #define CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 
@@ -72,6 +72,12 @@ class Byte_writer {
   template <class... T>
   void operator()(const T&... values) {
     (put(values), ...);
+  }
+  /// A list, of whose items the function visits the parts.
+  template <class T, class Visit>
+  void list(std::vector<T>& items, const Visit& visit) {
+    put_count(items.size());
+    for (T& item : items) visit(item);
   }
   void put_bytes(std::span<const std::byte> bytes) {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
@@ -144,6 +150,12 @@ class Byte_reader {
     T value{};
     take(value);
     return value;
+  }
+  /// A list, of whose items the function visits the parts.
+  template <class T, class Visit>
+  void list(std::vector<T>& items, const Visit& visit) {
+    items.resize(take_count(1));
+    for (T& item : items) visit(item);
   }
   /// The next bytes, where they lie.
   std::span<const std::byte> take_bytes(std::size_t count) {

@@ -28,13 +28,13 @@ void save(Byte_writer& out, const Elastic_foundation<D>& foundation);
 template <int D>
 void save(Byte_writer& out, const Tissue<D>& tissue);
 
-/// Makes again what was saved. The snapshot is that of the environment as it was then, or of a compiled copy;
+/// Saves simulated things, and makes them again from what was saved. The snapshot is that of the environment as it was then, or of a compiled copy;
 /// the scene is the same.
 /// \throw Error(input) for bytes that are damaged or do not fit these
 template <int D>
-class Saved_simulation {
+class State_access {
  public:
-  Saved_simulation(const Snapshot<D>& snapshot, const Scene<D>& scene) : snapshot_(snapshot), scene_(scene) {}
+  State_access(const Snapshot<D>& snapshot, const Scene<D>& scene) : snapshot_(snapshot), scene_(scene) {}
 
   World<D> read_world(Byte_reader& in, const Body_options& options) const;
   Change_schedule<D> read_schedule(Byte_reader& in) const;
@@ -44,6 +44,25 @@ class Saved_simulation {
 
   static void write(Byte_writer& out, const World<D>& world);
 
+  /// Visits all parts of a state that the scene and the environment do not give.
+  /// \throw Error(input) where lengths that were read do not agree
+  template <class Archive>
+  static void visit(Archive& a, Wall_pulsation<D>& pulsation);
+  template <class Archive>
+  static void visit(Archive& a, Elastic_foundation<D>& foundation);
+  template <class Archive>
+  static void visit(Archive& a, Tissue<D>& tissue);
+  template <class Archive>
+  static void visit(Archive& a, Change_schedule<D>& schedule);
+  template <class Archive>
+  static void visit(Archive& a, Deformable<D>& body);
+  template <class Archive>
+  static void visit(Archive& a, Shape_matching<D>& matching);
+  template <class Archive>
+  static void visit(Archive& a, Rigid_body<D>& body);
+  template <class Archive>
+  static void visit(Archive& a, Rod<D>& rod);
+
  private:
   Moving_body<D> read_body(Byte_reader& in, const std::optional<std::size_t>& entry) const;
 
@@ -51,8 +70,8 @@ class Saved_simulation {
   const Scene<D>& scene_;
 };
 
-extern template class Saved_simulation<2>;
-extern template class Saved_simulation<3>;
+extern template class State_access<2>;
+extern template class State_access<3>;
 
 }  // namespace cellwalk::detail
 
