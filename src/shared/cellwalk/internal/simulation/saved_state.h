@@ -28,8 +28,8 @@ void save(Byte_writer& out, const Elastic_foundation<D>& foundation);
 template <int D>
 void save(Byte_writer& out, const Tissue<D>& tissue);
 
-/// Saves simulated things, and makes them again from what was saved. The snapshot is that of the environment as it was then, or of a compiled copy;
-/// the scene is the same.
+/// Saves simulated things, and makes them again from what was saved. The snapshot is that of the environment
+/// as it was then, or of a compiled copy; the scene is the same.
 /// \throw Error(input) for bytes that are damaged or do not fit these
 template <int D>
 class State_access {
