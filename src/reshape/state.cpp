@@ -166,7 +166,7 @@ template <int D>
 void Reshaping_state<D>::finish() {
   if (!std::exchange(is_open, false)) return;
   mover.restore();
-  if (!replacer.is_broken() && !tissue.is_broken() && !merger.is_broken()) groups.follow_epoch();
+  if (!transaction.is_broken()) groups.follow_epoch();
 }
 
 template <int D>

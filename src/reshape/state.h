@@ -28,9 +28,10 @@ struct Reshaping_state {
         mover(environment),
         trial(groups, counts),
         toggle(environment, groups, counts.walk),
-        replacer(environment, groups, mover, counts),
-        tissue(environment, groups, toggle, counts),
-        merger(environment, groups, toggle, counts) {}
+        transaction(environment, groups, counts),
+        replacer(transaction, mover),
+        tissue(transaction, toggle),
+        merger(transaction, toggle) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
   /// nothing: it stays in any case.
@@ -53,6 +54,7 @@ struct Reshaping_state {
   Vertex_mover<D> mover;
   Vertex_trial<D> trial;
   Toggle<D> toggle;
+  Cell_transaction<D> transaction;
   Replacer<D> replacer;
   Tissue_patch<D> tissue;
   Merger<D> merger;

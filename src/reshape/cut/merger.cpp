@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "merger.h"
 
-#include <cellwalk/internal/environment/boundary_index.h>
-#include <cellwalk/internal/environment/star_index.h>
 
 #include <algorithm>
 
 #include "reshape/replace/patch.h"
-#include "reshape/toggle/shrinkage.h"
 #include "simplices.h"
 
 namespace cellwalk::detail {
@@ -66,35 +63,25 @@ std::string Merger<D>::add_cells(std::span<const Cell> star, std::uint32_t point
 
 template <int D>
 Replacement Merger<D>::merge_vertices(std::uint32_t point, std::uint32_t onto) {
-  const Snapshot<D>& s = snapshot();
-  const std::vector<Cell> star = environment_.cells_around(point);
+  const std::vector<Cell> star = transaction_.environment().cells_around(point);
   Replacement result;
   Cell_soup<D> soup;
   std::vector<Seam> opened;
   result.reason = add_cells(star, point, onto, soup, opened);
   if (!result.reason.empty()) return result;
-  std::vector<Cell> free;
-  std::ranges::copy_if(star, std::back_inserter(free), [&](Cell c) { return !s.is_solid(c); });
-  counts_.opened += groups_.open(box_of<D>(s, star));
-  Wall_editor<D> editor(environment_);
-  Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
-  result.held_by = leaving.holders();
-  for (const Member f : groups_.faces_near(box_of<D>(s, free)))
-    result.held_by.push_back(groups_.at(f, Body_feature::face));
+  const std::vector<Cell> free = transaction_.free_of(star);
+  transaction_.open(star);
+  result.held_by = transaction_.leave(free, true);
   if (!result.held_by.empty()) {
-    std::sort(result.held_by.begin(), result.held_by.end());
     result.reason = "something lies in the free cells around the point";
     return result;
   }
-  leaving.make();
-  relinker_.note(free);
-  is_broken_ = true;
-  result.cells = patcher_.replace(star, soup, glue_patch(soup));
-  free.clear();
-  std::ranges::copy_if(result.cells, std::back_inserter(free), [&](Cell c) { return !s.is_solid(c); });
-  relinker_.relink(free);
-  for (const Seam& seam : opened) toggle_.open(facet_off(s, result.cells[seam.cell], seam.apex));
-  is_broken_ = false;
+  transaction_.note(free);
+  result.cells = transaction_.replace(star, soup, glue_patch(soup), {}, Cell_transaction<D>::Into::free,
+                                      [&](std::span<const Cell> cells) {
+                                        for (const Seam& seam : opened)
+                                          toggle_.open(facet_off(snapshot(), cells[seam.cell], seam.apex));
+                                      });
   result.is_made = true;
   result.point = point;
   return result;

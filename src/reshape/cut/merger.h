@@ -3,8 +3,6 @@
 #ifndef CELLWALK_RESHAPE_CUT_MERGER_H
 #define CELLWALK_RESHAPE_CUT_MERGER_H
 
-#include <cellwalk/internal/environment/cell_patcher.h>
-#include <cellwalk/reshape/move.h>
 #include <cellwalk/reshape/replacement.h>
 
 #include <array>
@@ -13,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "reshape/replace/relinker.h"
-#include "reshape/residents/resident_groups.h"
+#include "reshape/replace/cell_transaction.h"
 #include "reshape/toggle/toggle.h"
 
 namespace cellwalk::detail {
@@ -23,23 +20,14 @@ namespace cellwalk::detail {
 template <int D>
 class Merger {
  public:
-  Merger(Environment<D>& environment, Resident_groups<D>& groups, Toggle<D>& toggle, Reshape_counts& counts)
-      : environment_(environment),
-        groups_(groups),
-        toggle_(toggle),
-        counts_(counts),
-        patcher_(environment),
-        relinker_(groups, environment.snapshot(), counts.walk) {}
+  Merger(Cell_transaction<D>& transaction, Toggle<D>& toggle) : transaction_(transaction), toggle_(toggle) {}
 
   /// As Reshaping::merge_vertices(), for points that exist, and cells around the first of them that are
   /// simplices.
   Replacement merge_vertices(std::uint32_t point, std::uint32_t onto);
 
-  /// True once something had no place in the new cells: then bodies must not go on.
-  bool is_broken() const { return is_broken_; }
-
  private:
-  const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
+  const Snapshot<D>& snapshot() const { return transaction_.snapshot(); }
   /// A facet of a new cell, and whether it becomes passable where two facets become one.
   struct Seam {
     std::size_t cell;    ///< of the new ones
@@ -49,13 +37,8 @@ class Merger {
                         Cell_soup<D>& soup, std::vector<Seam>& opened) const;
   bool is_sewn(Cell kept, Cell gap, std::uint32_t point, std::uint32_t onto) const;
 
-  Environment<D>& environment_;
-  Resident_groups<D>& groups_;
+  Cell_transaction<D>& transaction_;
   Toggle<D>& toggle_;
-  Reshape_counts& counts_;
-  Cell_patcher<D> patcher_;
-  Relinker<D> relinker_;
-  bool is_broken_ = false;
 };
 
 extern template class Merger<2>;

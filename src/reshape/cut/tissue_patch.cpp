@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "tissue_patch.h"
 
-#include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/signs.h>
 
@@ -11,7 +10,6 @@
 #include <utility>
 
 #include "reshape/replace/patch.h"
-#include "reshape/toggle/shrinkage.h"
 #include "simplices.h"
 
 namespace cellwalk::detail {
@@ -76,7 +74,7 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
       const Half_facet facet = Snapshot<D>::half_facet(c, f);
       if (!has_point(view, f, u) || !has_point(view, f, v)) continue;
       const Cell other = s.neighbour(facet);
-      const int where = side<Exact>(view, f, position, counts_.walk);
+      const int where = side<Exact>(view, f, position, transaction_.walk_counts());
       if (other == Cell::none) {
         if (where != 0) return false;
         if (!s.is_solid(c)) walls.push_back(facet);
@@ -88,8 +86,8 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
   }
   const std::array<std::uint32_t, 2> edge{u, v};
   if (count_fans(s, std::span<const Cell>(free), edge) > 1) return false;
-  if (D == 2 || !groups_.has_open()) return true;
-  for (const Resident_group<D>& group : groups_.all()) {
+  if (D == 2 || !transaction_.groups().has_open()) return true;
+  for (const Resident_group<D>& group : transaction_.groups().all()) {
     if (!group.is_open || !group.body || !group.body->keeps_faces() || !group.body->has_supporting_walls())
       continue;
     for (std::uint32_t f = 0; f < group.faces.size(); ++f)
@@ -112,42 +110,24 @@ bool Tissue_patch<D>::keeps_solid_off(std::span<const Cell> cells, const std::ar
       const Cell other = s.neighbour(Snapshot<D>::half_facet(c, f));
       const bool is_free_side = other != Cell::none && !s.is_solid(c) && s.is_solid(other);
       if (other != Cell::none && !is_free_side) continue;
-      const int where = side<Exact>(view, f, position, counts_.walk);
+      const int where = side<Exact>(view, f, position, transaction_.walk_counts());
       if (is_free_side ? where < 0 : where != 0) return false;
     }
   }
   return true;
 }
 
-/// Registers all that is in some free cells in others. False, with nothing changed, if something must be
-/// there, or a face lies near.
-template <int D>
-bool Tissue_patch<D>::all_leave(std::span<const Cell> free) {
-  if (!groups_.faces_near(box_of<D>(snapshot(), free)).empty()) return false;
-  Wall_editor<D> editor(environment_);
-  Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
-  if (!leaving.holders().empty()) return false;
-  leaving.make();
-  return true;
-}
-
-template <int D>
-std::vector<Cell> Tissue_patch<D>::replace(std::span<const Cell> removed, const Cell_soup<D>& soup,
-                                           const Point<D>& added) {
-  return patcher_.replace(removed, soup, glue_patch(soup), added);
-}
-
 /// All cells with an edge.
 template <int D>
 std::vector<Cell> Tissue_patch<D>::cells_at(std::uint32_t u, std::uint32_t v) const {
-  std::vector<Cell> cells = environment_.cells_around(u);
+  std::vector<Cell> cells = transaction_.environment().cells_around(u);
   std::erase_if(cells, [&](Cell c) { return !has_corner(snapshot(), c, v); });
   return cells;
 }
 
 template <int D>
 void Tissue_patch<D>::open_groups(std::uint32_t u, std::uint32_t v) {
-  counts_.opened += groups_.open(box_of<D>(snapshot(), cells_at(u, v)));
+  transaction_.open(cells_at(u, v));
 }
 
 /// The mean direction from walls at an edge into solid cells; zero if it has none.
@@ -155,7 +135,7 @@ template <int D>
 Vector<D> Tissue_patch<D>::into_solid(std::uint32_t u, std::uint32_t v) const {
   const Snapshot<D>& s = snapshot();
   Vector<D> sum{};
-  for (const Cell c : environment_.cells_around(u)) {
+  for (const Cell c : transaction_.environment().cells_around(u)) {
     if (!s.is_solid(c)) continue;
     const Cell_view<D> view = s.view(c);
     for (std::size_t f = 0; f < view.facet_count(); ++f) {
@@ -212,19 +192,13 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_at(std::uint32_t u, std::uin
       add_cell(soup, simplex, walls, s.is_solid(c));
     }
   }
-  counts_.opened += groups_.open(box_of<D>(s, cells));
+  transaction_.open(cells);
   const bool may_be = walls_there == Walls::retreat
                           ? may_move_walls(cells, u, v, position)
-                          : keeps_solid_off(cells, edge, position) && all_leave(free);
+                          : keeps_solid_off(cells, edge, position) && transaction_.leave(free, true).empty();
   if (!may_be) return std::nullopt;
-  relinker_.note(free);
-  is_broken_ = true;
-  const std::vector<Cell> added = replace(cells, soup, position);
-  free.clear();
-  for (const Cell c : added)
-    if (!s.is_solid(c)) free.push_back(c);
-  counts_.relinked += relinker_.relink(free);
-  is_broken_ = false;
+  transaction_.note(free);
+  transaction_.replace(cells, soup, glue_patch(soup), position, Cell_transaction<D>::Into::free);
   return point;
 }
 
@@ -280,7 +254,7 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_vertex(std::uint32_t vertex,
     gaps.push_back(soup.cell_count());
     add_cell(soup, simplex, walls, false);
   }
-  const std::vector<Cell> added = replace(solid, soup, target);
+  const std::vector<Cell> added = transaction_.exchange(solid, soup, target);
   for (const std::size_t gap : gaps) {
     const Half_facet facet = facet_off(s, added[gap], point);
     const Cell other = s.neighbour(facet);

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "reshape/replace/relinker.h"
-#include "reshape/residents/resident_groups.h"
+#include "reshape/replace/cell_transaction.h"
 #include "reshape/toggle/toggle.h"
 
 namespace cellwalk::detail {
@@ -23,14 +22,8 @@ namespace cellwalk::detail {
 template <int D>
 class Tissue_patch {
  public:
-  Tissue_patch(Environment<D>& environment, Resident_groups<D>& groups, Toggle<D>& toggle,
-               Reshape_counts& counts)
-      : environment_(environment),
-        groups_(groups),
-        toggle_(toggle),
-        counts_(counts),
-        patcher_(environment),
-        relinker_(groups, environment.snapshot(), counts.walk) {}
+  Tissue_patch(Cell_transaction<D>& transaction, Toggle<D>& toggle)
+      : transaction_(transaction), toggle_(toggle) {}
 
   /// Opens the groups near the cells at an edge, so that nothing that is split there can be refused for them.
   /// \throw Error(usage) for a particle that does not lie in its cell
@@ -58,9 +51,7 @@ class Tissue_patch {
   std::optional<std::uint32_t> split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
                                             const Point<D>& target, std::string& reason);
 
-  const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
-  /// True once something had no place in the new cells: then bodies must not go on.
-  bool is_broken() const { return is_broken_; }
+  const Snapshot<D>& snapshot() const { return transaction_.snapshot(); }
 
  private:
   static constexpr std::size_t corner_count = static_cast<std::size_t>(D) + 1;
@@ -74,20 +65,13 @@ class Tissue_patch {
                       const Point<D>& position) const;
   bool keeps_solid_off(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
                        const Point<D>& position) const;
-  bool all_leave(std::span<const Cell> free);
   Vector<D> into_solid(std::uint32_t u, std::uint32_t v) const;
   std::optional<std::uint32_t> split_at(std::uint32_t u, std::uint32_t v, const Point<D>& position,
                                         Walls walls);
   bool is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const;
-  std::vector<Cell> replace(std::span<const Cell> removed, const Cell_soup<D>& soup, const Point<D>& added);
 
-  Environment<D>& environment_;
-  Resident_groups<D>& groups_;
+  Cell_transaction<D>& transaction_;
   Toggle<D>& toggle_;
-  Reshape_counts& counts_;
-  Cell_patcher<D> patcher_;
-  Relinker<D> relinker_;
-  bool is_broken_ = false;
 };
 
 extern template class Tissue_patch<2>;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "replacement.h"
 
-#include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
 
@@ -12,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "reshape/toggle/shrinkage.h"
 #include "wall_edge.h"
 
 namespace cellwalk::detail {
@@ -105,18 +103,9 @@ class Ring_triangulation {
 }  // namespace
 
 template <int D>
-Replacer<D>::Replacer(Environment<D>& environment, Resident_groups<D>& groups, Vertex_mover<D>& mover,
-                      Reshape_counts& counts)
-    : environment_(environment),
-      groups_(groups),
-      mover_(mover),
-      counts_(counts),
-      patcher_(environment),
-      relinker_(groups, environment.snapshot(), counts.walk) {}
-
-template <int D>
 void Replacer<D>::check_edit() const {
-  if (environment_.is_frozen()) refuse_use("the environment is frozen: thaw() it to replace cells");
+  if (transaction_.environment().is_frozen())
+    refuse_use("the environment is frozen: thaw() it to replace cells");
 }
 
 template <int D>
@@ -138,7 +127,7 @@ void Replacer<D>::check_points(std::span<const std::uint32_t> points) const {
   check_edit();
   for (const std::uint32_t point : points) {
     check_point(point);
-    check_simplices(environment_.cells_around(point));
+    check_simplices(transaction_.environment().cells_around(point));
   }
 }
 
@@ -148,7 +137,7 @@ std::vector<Cell> Replacer<D>::cells_at_edge(std::uint32_t u, std::uint32_t v) c
   check_edit();
   check_point(u);
   check_point(v);
-  std::vector<Cell> cells = environment_.cells_around(u);
+  std::vector<Cell> cells = transaction_.environment().cells_around(u);
   if (u != v) std::erase_if(cells, [&](Cell c) { return !has_vertex(snapshot(), c, v); });
   if (u == v || cells.empty()) refuse_use("there is no " + edge_name(u, v));
   check_simplices(cells);
@@ -199,12 +188,12 @@ std::vector<std::uint32_t> Replacer<D>::ring(const std::vector<Cell>& cells, std
 
 template <int D>
 bool Replacer<D>::is_off_walls(std::uint32_t point) const {
-  return !has_wall_at_edge(environment_.cells_around(point), point, point);
+  return !has_wall_at_edge(transaction_.environment().cells_around(point), point, point);
 }
 
 template <int D>
 Replacement Replacer<D>::make(const Patch<D>& patch) {
-  patcher_.prefetch(patch.removed);
+  transaction_.prefetch(patch.removed);
   Cell_soup<D> soup;
   Gluing gluing;
   if (std::string reason = check_patch(snapshot(), patch, soup, gluing); !reason.empty())
@@ -217,18 +206,16 @@ Replacement Replacer<D>::make(const Patch<D>& patch) {
 template <int D>
 void Replacer<D>::prepare(const Patch<D>& patch) {
   mover_.restore();
-  counts_.opened += groups_.open(box_of<D>(snapshot(), patch.removed));
-  relinker_.note(patch.removed);
+  transaction_.open(patch.removed);
+  transaction_.note(patch.removed);
 }
 
 template <int D>
 Replacement Replacer<D>::replace(const Patch<D>& patch, const Cell_soup<D>& soup, const Gluing& gluing) {
   Replacement result;
   if (patch.added) result.point = snapshot().next_point();
-  is_broken_ = true;
-  result.cells = patcher_.replace(patch.removed, soup, gluing, patch.added);
-  counts_.relinked += relinker_.relink(result.cells);
-  is_broken_ = false;
+  result.cells =
+      transaction_.replace(patch.removed, soup, gluing, patch.added, Cell_transaction<D>::Into::all);
   result.is_made = true;
   return result;
 }
@@ -317,7 +304,7 @@ Patch<D> Replacer<D>::without_edge(std::uint32_t u, std::uint32_t v, std::string
 template <int D>
 Patch<D> Replacer<D>::collapsed(std::uint32_t u, std::uint32_t onto, std::string& reason) const {
   cells_at_edge(u, onto);
-  Patch<D> patch{environment_.cells_around(u), {}, {}};
+  Patch<D> patch{transaction_.environment().cells_around(u), {}, {}};
   check_simplices(patch.removed);
   std::sort(patch.removed.begin(), patch.removed.end());
   if (has_wall_at_edge(patch.removed, u, u)) reason = "a wall or the boundary has the point";
@@ -327,19 +314,6 @@ Patch<D> Replacer<D>::collapsed(std::uint32_t u, std::uint32_t onto, std::string
     std::ranges::replace(patch.cells.back(), u, onto);
   }
   return patch;
-}
-
-/// Registers all that is in the free ones of some cells in others. False, with nothing changed, if something
-/// must be there.
-template <int D>
-bool Replacer<D>::all_leave(std::span<const Cell> cells) {
-  std::vector<Cell> free;
-  std::ranges::copy_if(cells, std::back_inserter(free), [&](Cell c) { return !snapshot().is_solid(c); });
-  Wall_editor<D> editor(environment_);
-  Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
-  if (!leaving.holders().empty()) return false;
-  leaving.make();
-  return true;
 }
 
 template <int D>
@@ -352,9 +326,9 @@ Replacement Replacer<D>::split_edge(std::uint32_t u, std::uint32_t v, const Poin
   reason = check_wall_edge<D>(snapshot(), patch.removed, {u, v}, position, soup);
   if (!reason.empty()) return refused(std::move(reason));
   prepare(patch);
-  if (relinker_.has_rests() || !all_leave(patch.removed))
+  if (transaction_.has_rests() || !transaction_.leave(transaction_.free_of(patch.removed), false).empty())
     return refused("a wall has the edge, and something lies in the cells around it");
-  relinker_.note(patch.removed);
+  transaction_.note(patch.removed);
   return replace(patch, soup, glue_patch(soup));
 }
 

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cell_transaction.h"
 #include "patch.h"
-#include "relinker.h"
 
 namespace cellwalk::detail {
 
@@ -21,8 +21,8 @@ template <int D>
 class Replacer {
  public:
   /// \param mover what it has withdrawn is restored before cells are replaced
-  Replacer(Environment<D>& environment, Resident_groups<D>& groups, Vertex_mover<D>& mover,
-           Reshape_counts& counts);
+  Replacer(Cell_transaction<D>& transaction, Vertex_mover<D>& mover)
+      : transaction_(transaction), mover_(mover) {}
 
   Replacement insert_point(Cell cell, const Point<D>& position);
   Replacement split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
@@ -41,15 +41,12 @@ class Replacer {
   /// \throw Error(usage) if the environment is frozen, if there is no such point, or if a cell around it is
   ///        not a simplex
   void check_points(std::span<const std::uint32_t> points) const;
-  /// True once something had no place in the new cells: then bodies must not go on.
-  bool is_broken() const { return is_broken_; }
   /// True if no wall has a point, nor the boundary.
   bool is_off_walls(std::uint32_t point) const;
-  const Snapshot<D>& snapshot() const { return environment_.snapshot(); }
+  const Snapshot<D>& snapshot() const { return transaction_.snapshot(); }
 
  private:
   void prepare(const Patch<D>& patch);
-  bool all_leave(std::span<const Cell> cells);
   Replacement replace(const Patch<D>& patch, const Cell_soup<D>& soup, const Gluing& gluing);
   void check_edit() const;
   void check_simplices(const std::vector<Cell>& cells) const;
@@ -58,13 +55,8 @@ class Replacer {
   bool has_wall_at_edge(const std::vector<Cell>& cells, std::uint32_t u, std::uint32_t v) const;
   std::vector<std::uint32_t> ring(const std::vector<Cell>& cells, std::uint32_t u, std::uint32_t v) const;
 
-  Environment<D>& environment_;
-  Resident_groups<D>& groups_;
+  Cell_transaction<D>& transaction_;
   Vertex_mover<D>& mover_;
-  Reshape_counts& counts_;
-  Cell_patcher<D> patcher_;
-  Relinker<D> relinker_;
-  bool is_broken_ = false;
 };
 
 extern template class Replacer<2>;
