@@ -25,17 +25,17 @@ using Corner = std::array<int, 3>;
 struct Box_of_cubes {
   Corner low, high;
 };
-constexpr Corner size{3, 3, 2};
+constexpr Corner block_size{3, 3, 2};
 
 /// The boxes as cells whose facets are the unit squares of their sides.
 Environment<3> built(const std::vector<Box_of_cubes>& boxes, bool is_reversed) {
   Cell_soup<3> soup;
   const auto point = [](const Corner& x) {
-    return static_cast<std::uint32_t>(x[0] + (size[0] + 1) * (x[1] + (size[1] + 1) * x[2]));
+    return static_cast<std::uint32_t>(x[0] + (block_size[0] + 1) * (x[1] + (block_size[1] + 1) * x[2]));
   };
-  for (int z = 0; z <= size[2]; ++z)
-    for (int y = 0; y <= size[1]; ++y)
-      for (int x = 0; x <= size[0]; ++x)
+  for (int z = 0; z <= block_size[2]; ++z)
+    for (int y = 0; y <= block_size[1]; ++y)
+      for (int x = 0; x <= block_size[0]; ++x)
         soup.points.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
   for (const auto& [low, high] : boxes) {
     for (std::size_t n = 0; n < 6; ++n) {
@@ -63,9 +63,9 @@ Environment<3> built(const std::vector<Box_of_cubes>& boxes, bool is_reversed) {
 
 std::vector<Box_of_cubes> cubes() {
   std::vector<Box_of_cubes> result;
-  for (int z = 0; z < size[2]; ++z)
-    for (int y = 0; y < size[1]; ++y)
-      for (int x = 0; x < size[0]; ++x) result.push_back({{x, y, z}, {x + 1, y + 1, z + 1}});
+  for (int z = 0; z < block_size[2]; ++z)
+    for (int y = 0; y < block_size[1]; ++y)
+      for (int x = 0; x < block_size[0]; ++x) result.push_back({{x, y, z}, {x + 1, y + 1, z + 1}});
   return result;
 }
 
@@ -147,8 +147,8 @@ class Merged {
     for (int k = 0; k < 60; ++k) {
       Box_of_cubes box{};
       for (std::size_t a = 0; a < 3; ++a) {
-        box.low[a] = static_cast<int>(random.below(static_cast<std::size_t>(size[a])));
-        box.high[a] = std::min(box.low[a] + (random.chance(0.5) ? 1 : 2), size[a]);
+        box.low[a] = static_cast<int>(random.below(static_cast<std::size_t>(block_size[a])));
+        box.high[a] = std::min(box.low[a] + (random.chance(0.5) ? 1 : 2), block_size[a]);
       }
       add(box);
     }
@@ -197,7 +197,7 @@ void move_in_both(std::uint64_t number, Merged_seen& seen) {
     const std::size_t a = random.below(3);
     // Mostly to the plane between the layers, where most of the walls are, and to planes of other walls.
     const auto grid = [&](std::size_t axis) {
-      return static_cast<double>(random.below(static_cast<std::size_t>(size[axis] + 1)));
+      return static_cast<double>(random.below(static_cast<std::size_t>(block_size[axis] + 1)));
     };
     const auto kind = random.below(10);
     if (kind < 4)

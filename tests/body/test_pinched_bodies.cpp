@@ -34,7 +34,7 @@ Environment<3> with_walls(const std::vector<Point<3>>& centres) {
 
 // The ways lead from x = 6 to x = 9 on the line y = z = 6. On its piece from 7 to 8 a wall may stand below,
 // behind, above and before.
-constexpr Point<3> start{6, 6, 6}, target{9, 6, 6};
+constexpr Point<3> ridge_start{6, 6, 6}, ridge_target{9, 6, 6};
 const Point<3> below{7.5, 6, 5.5}, behind{7.5, 5.5, 6}, above{7.5, 6, 6.5}, before{7.5, 6.5, 6};
 
 /// Where the quarters between these walls are, as seen from the line.
@@ -51,9 +51,9 @@ std::array<Point<3>, 2> face_in(const Quarter& q) { return {at(7.5, 0, 5 * q.z),
 std::optional<Contact<3>> move_face_and_edge(const Environment<3>& room, const Quarter& face,
                                              const Quarter& edge, bool is_back = false) {
   const auto [q, r] = face_in(face);
-  Moving body(room.snapshot(), {is_back ? target : start, q, r, at(7.5, 4 * edge.y, 5 * edge.z)}, {{0, 1, 2}},
-              {{0, 3}});
-  return body.move(0, is_back ? start : target);
+  Moving body(room.snapshot(), {is_back ? ridge_target : ridge_start, q, r, at(7.5, 4 * edge.y, 5 * edge.z)},
+              {{0, 1, 2}}, {{0, 3}});
+  return body.move(0, is_back ? ridge_start : ridge_target);
 }
 
 constexpr std::array quarters{below_behind, above_behind, above_before, below_before};
@@ -105,9 +105,9 @@ TEST(PinchedBodies, WallsAtTheWayDoNotComeBetweenTwoFaces) {
       SCOPED_TRACE(testing::Message() << one << " " << other);
       const auto [q, r] = face_in(quarters[one]);
       const auto [y, z] = quarters[other];
-      Moving body(room.snapshot(), {start, q, r, at(7.5, 3 * y, 4 * z), at(7.5, 4 * y, 3 * z)},
+      Moving body(room.snapshot(), {ridge_start, q, r, at(7.5, 3 * y, 4 * z), at(7.5, 4 * y, 3 * z)},
                   {{0, 1, 2}, {0, 3, 4}});
-      EXPECT_EQ(body.move(0, target).has_value(), !are_linked(one, other, has_wall));
+      EXPECT_EQ(body.move(0, ridge_target).has_value(), !are_linked(one, other, has_wall));
     }
 }
 
@@ -132,17 +132,17 @@ TEST(PinchedBodies, ABareEdgePassesWithTheFaceUnlessItIsThereBefore) {
        {"in the line, behind", at(5, 0, 0), at(5, 0, 0), false}}};
   for (const Bare_edge& edge : edges) {
     SCOPED_TRACE(edge.where);
-    Moving body(room.snapshot(), {start, q, r, edge.landed_from}, {{0, 1, 2}}, {{0, 3}});
+    Moving body(room.snapshot(), {ridge_start, q, r, edge.landed_from}, {{0, 1, 2}}, {{0, 3}});
     ASSERT_FALSE(body.move(3, edge.end));
-    const auto contact = body.move(0, target);
+    const auto contact = body.move(0, ridge_target);
     EXPECT_EQ(contact.has_value(), edge.is_at_piece);
     if (contact) {
       EXPECT_EQ(contact->time, 1.0 / 3);
       EXPECT_EQ(contact->point, at(7, 0, 0));
     }
-    Moving alone(room.snapshot(), {start, edge.landed_from}, {}, {{0, 1}});
+    Moving alone(room.snapshot(), {ridge_start, edge.landed_from}, {}, {{0, 1}});
     ASSERT_FALSE(alone.move(1, edge.end));
-    EXPECT_FALSE(alone.move(0, target)) << "without the face";
+    EXPECT_FALSE(alone.move(0, ridge_target)) << "without the face";
   }
 }
 
@@ -181,8 +181,8 @@ TEST(PinchedBodies, AnEdgePassesWallsWithItsFace) {
       SCOPED_TRACE(testing::Message() << is_upright << " " << q.y << " " << q.z);
       const Point<3> level = at(is_upright ? 7.5 : 9, 4 * q.y, 0),
                      upright = at(is_upright ? 9 : 7.5, 0, 5 * q.z);
-      Moving face(room.snapshot(), {start, level, upright}, {{0, 1, 2}});
-      EXPECT_FALSE(face.move(is_upright ? 2 : 1, target));
+      Moving face(room.snapshot(), {ridge_start, level, upright}, {{0, 1, 2}});
+      EXPECT_FALSE(face.move(is_upright ? 2 : 1, ridge_target));
     }
 }
 
@@ -195,7 +195,7 @@ TEST(PinchedBodies, AWallOnTheRidgeOfAMembranePartsItsSides) {
                  {at(6, 0, -0.5), at(10, -2, -0.5), at(10, -0.25, -0.5), at(7.5, 3, 4), at(7.5, 4, 3)},
                  {{0, 1, 2}, {0, 3, 4}});
     ASSERT_TRUE(flaps.lift(6, 3));
-    EXPECT_EQ(flaps.move(0, target).has_value(), hangs);
+    EXPECT_EQ(flaps.move(0, ridge_target).has_value(), hangs);
   }
 }
 

@@ -15,13 +15,13 @@
 namespace cellwalk::test {
 namespace {
 
-Environment<3> room() { return with_membranes({9.9, 4.9, 0.9}, {11.1, 6.1, 1.1}); }
+Environment<3> membrane_room() { return with_membranes({9.9, 4.9, 0.9}, {11.1, 6.1, 1.1}); }
 
 /// A height beside the plane, and the one on its other side.
 constexpr std::array<std::array<double, 2>, 2> mirrors{{{0.5, 1.5}, {1.5, 0.5}}};
 
 TEST(FlatFaces, ASheetKeepsItsSideWhenTheMembraneComesFromOneFaceToTheNext) {
-  const auto environment = room();
+  const auto environment = membrane_room();
   for (const auto& [own, other] : mirrors) {
     SCOPED_TRACE(own);
     Moving sheet(environment.snapshot(), {{4, 11, own}, {10.5, 1, own}, {2, 6, own}, {20, 6, own}},
@@ -34,7 +34,7 @@ TEST(FlatFaces, ASheetKeepsItsSideWhenTheMembraneComesFromOneFaceToTheNext) {
 }
 
 TEST(FlatFaces, AMembraneStaysOutsideOfABodyWhoseBaseComesToIt) {
-  const auto environment = room();
+  const auto environment = membrane_room();
   for (const auto& [apex, away] : {std::array{0.25, 0.125}, std::array{1.75, -0.125}}) {
     SCOPED_TRACE(apex);
     Moving body(environment.snapshot(), {{4, 11, 1}, {10.5, 1, 1}, {2, 6, 1}, {5, 6, apex}},
@@ -46,7 +46,7 @@ TEST(FlatFaces, AMembraneStaysOutsideOfABodyWhoseBaseComesToIt) {
 }
 
 TEST(FlatFaces, WhatAFaceRestsOnDoesNotPassAnEdgeToAFaceOnTheOtherSide) {
-  const auto environment = room();
+  const auto environment = membrane_room();
   for (const auto& [own, other] : mirrors)
     for (const double neighbour : {own, other}) {
       SCOPED_TRACE(own);
@@ -65,7 +65,7 @@ TEST(FlatFaces, WhatAFaceRestsOnDoesNotPassAnEdgeToAFaceOnTheOtherSide) {
 }
 
 TEST(FlatFaces, AMembraneThatPassesAFaceHasItAndBothNeighboursOnOneSide) {
-  const auto environment = room();
+  const auto environment = membrane_room();
   for (const double one : {0.25, 1.75})
     for (const double other : {0.25, 1.75}) {
       // It comes in over the edge 01 and leaves over the edge 02.
@@ -76,7 +76,7 @@ TEST(FlatFaces, AMembraneThatPassesAFaceHasItAndBothNeighboursOnOneSide) {
 }
 
 TEST(FlatFaces, AnEdgeOffThePlaneHoldsTheVertexOnItsSide) {
-  const auto environment = room();
+  const auto environment = membrane_room();
   for (const auto& [own, other] : mirrors) {
     SCOPED_TRACE(own);
     Moving body(environment.snapshot(), {{8, 5.5, own}, {20, 1, own}, {20, 10, own}, {7, 5.5, own}},
@@ -88,7 +88,7 @@ TEST(FlatFaces, AnEdgeOffThePlaneHoldsTheVertexOnItsSide) {
 }
 
 TEST(FlatFaces, AFaceIsOnTheSideThatItsNeighbourNeeds) {
-  const auto environment = room();
+  const auto environment = membrane_room();
   for (const auto& [apex, towards] : {std::array{0.25, -0.125}, std::array{1.75, 0.125}}) {
     SCOPED_TRACE(apex);
     for (const bool back : {false, true}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies in the same geometry listed in another order: registered alike, stopped alike, to the bit.
 #include <cellwalk/body/body.h>
+#include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>
 
