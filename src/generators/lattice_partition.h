@@ -3,7 +3,7 @@
 #ifndef CELLWALK_GENERATORS_LATTICE_PARTITION_H
 #define CELLWALK_GENERATORS_LATTICE_PARTITION_H
 
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/random.h>
 
 #include <array>

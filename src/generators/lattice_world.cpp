@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

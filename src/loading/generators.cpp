@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/lattice_map.h>
-#include <cellwalk/generators/lattice_world.h>
 #include <cellwalk/generators/room.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/generators.h>
 

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_TESTS_ENVIRONMENT_SAMPLE_SOUPS_H
 #define CELLWALK_TESTS_ENVIRONMENT_SAMPLE_SOUPS_H
 
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>

@@ -3,8 +3,8 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
 #include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

@@ -4,7 +4,7 @@
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

@@ -3,7 +3,7 @@
 // by its reason.
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // to be shared out, which those of other tests are not.
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

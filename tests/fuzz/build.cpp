@@ -3,7 +3,7 @@
 // refused; what is certified is certified again from its own soup, and moved about in.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 
 #include <algorithm>
 #include <array>

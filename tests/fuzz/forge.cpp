@@ -3,7 +3,7 @@
 
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 
 #include <algorithm>
 #include <array>

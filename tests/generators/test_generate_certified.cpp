@@ -3,9 +3,9 @@
 // have.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
 #include <cellwalk/generators/room.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 
 #include <gtest/gtest.h>
 

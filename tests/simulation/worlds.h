@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_SIMULATION_WORLDS_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_WALK_EDITED_WORLDS_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>

@@ -2,7 +2,7 @@
 // Bodies in random worlds in which walls are made and taken away at them, cells filled and excavated, and
 // names changed. An oracle that knows walls and moves only tells on which sides of walls they must be.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

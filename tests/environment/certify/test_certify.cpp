@@ -3,7 +3,7 @@
 #include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/split.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/policies.h>
 
 #include <gtest/gtest.h>

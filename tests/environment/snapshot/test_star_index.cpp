@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Cells around points, found in the snapshot, against a search of all cells.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Environments made of simplices only.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/generators/lattice_world.h>
+#include <cellwalk/internal/generators/lattice_world.h>
 
 #include <gtest/gtest.h>
 

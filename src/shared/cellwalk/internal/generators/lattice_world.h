@@ -2,8 +2,8 @@
 // Lattice worlds: small complexes full of degeneracies, all of them exactly representable, for the
 // oracle tests: membranes, solid and missing cells (pinched vertices and edges), cells of many shapes,
 // cells with several coplanar facets, cells that share more than one facet, facets with collinear vertices.
-#ifndef CELLWALK_GENERATORS_LATTICE_WORLD_H
-#define CELLWALK_GENERATORS_LATTICE_WORLD_H
+#ifndef CELLWALK_INTERNAL_GENERATORS_LATTICE_WORLD_H
+#define CELLWALK_INTERNAL_GENERATORS_LATTICE_WORLD_H
 
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/lattice_map.h>
@@ -56,4 +56,4 @@ Cell_soup<D> lattice_world(const Lattice_world_options<D>& options);
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_GENERATORS_LATTICE_WORLD_H
+#endif  // CELLWALK_INTERNAL_GENERATORS_LATTICE_WORLD_H
