@@ -19,7 +19,7 @@
 namespace cellwalk::fuzz {
 namespace {
 
-Judged totals;
+Judged judged_totals;
 
 /// True for points on which the oracles' integers stay short.
 template <std::size_t D>
@@ -68,7 +68,7 @@ class Mover {
       demand(
           cells == place.free_cells && static_cast<int>(here.sides.size()) == place.sides && is_well_placed,
           "a point is located wrongly");
-      ++totals.places;
+      ++judged_totals.places;
     }
     if (here.status != Location_status::free) return std::nullopt;
     const std::size_t number = in.below(here.cells.size());
@@ -97,15 +97,15 @@ class Mover {
     demand(verdict == oracle::Verdict::right, std::string(oracle::name(verdict)) + ", strategy " +
                                                   std::to_string(static_cast<int>(strategy)) + ": " +
                                                   describe(motion));
-    ++totals.walks;
-    totals.walks_blocked += result.status == Walk_status::contact;
+    ++judged_totals.walks;
+    judged_totals.walks_blocked += result.status == Walk_status::contact;
   }
 
   void demand_chain(const Particle<D>& p, const Particle<D>& q, const Chain& chain) {
     Walk_counts counts;
     demand(in_closure(snapshot_, p.cell, p.position), "a particle is not in its cell");
     demand(is_chain(snapshot_, p, q, chain, counts), "an edge does not pass its chain");
-    ++totals.chains;
+    ++judged_totals.chains;
   }
 
   void sweep(const Particle<D>& p, const Point<D>& to, const Particle<D>& q, Decoder& in) {
@@ -159,8 +159,8 @@ class Mover {
     } catch (const std::length_error&) {
       return;  // more chains than the oracle follows
     }
-    ++totals.sweeps;
-    totals.sweeps_blocked += result.contact.has_value();
+    ++judged_totals.sweeps;
+    judged_totals.sweeps_blocked += result.contact.has_value();
   }
 
   const Snapshot<D>& snapshot_;
@@ -171,7 +171,7 @@ class Mover {
 
 }  // namespace
 
-const Judged& judged() { return totals; }
+const Judged& judged() { return judged_totals; }
 
 template <int D>
 Point<D> some_point(const Snapshot<D>& snapshot, Decoder& in) {

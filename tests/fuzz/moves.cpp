@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t most_phases = 3, most_moves = 8, most_edits = 6;
 
-Judged_moves totals;
+Judged_moves change_totals;
 
 template <int D>
 Cell_soup<D> some_soup(Decoder& in) {
@@ -157,7 +157,7 @@ class Moving {
       demand(tally_.wrong() == 0, fault());
     }
     reshaping.finish();
-    totals.pushed += reshaping.counts().pushes;
+    change_totals.pushed += reshaping.counts().pushes;
     count();
   }
 
@@ -173,14 +173,14 @@ class Moving {
     demand(result.end != Move_end::reached || result.position == target, "a vertex arrives elsewhere");
     const bool is_refused = result.end == Move_end::cell || result.end == Move_end::boundary;
     demand(!is_refused || result.position == from, "a vertex moves although a cell would be wrong");
-    totals.stopped += result.end == Move_end::contact && result.position != from;
+    change_totals.stopped += result.end == Move_end::contact && result.position != from;
   }
 
   void count() {
-    totals.moves += static_cast<std::size_t>(tally_.moves);
-    totals.reached += static_cast<std::size_t>(tally_.reached);
-    totals.touching += static_cast<std::size_t>(tally_.free_touching);
-    totals.contacts += static_cast<std::size_t>(tally_.contacts);
+    change_totals.moves += static_cast<std::size_t>(tally_.moves);
+    change_totals.reached += static_cast<std::size_t>(tally_.reached);
+    change_totals.touching += static_cast<std::size_t>(tally_.free_touching);
+    change_totals.contacts += static_cast<std::size_t>(tally_.contacts);
     tally_ = {};
   }
 
@@ -208,7 +208,7 @@ class Moving {
 
 }  // namespace
 
-const Judged_moves& judged_moves() { return totals; }
+const Judged_moves& judged_moves() { return change_totals; }
 
 void moves(std::string_view bytes) {
   Decoder in(bytes);

@@ -18,10 +18,10 @@
 namespace cellwalk::fuzz {
 namespace {
 
-Used totals;
+Used opened_totals;
 
 /// So much of each kind for an input.
-constexpr std::size_t most_motions = 3, most_steps = 3, most_changes = 6, most_edits = 4;
+constexpr std::size_t most_motions = 3, most_steps = 3, most_changes = 6, most_edits_of_opened = 4;
 
 /// Any point that a motion may start from or go to; cells need not be what they seem.
 template <int D>
@@ -62,7 +62,7 @@ class Use {
     for (std::size_t i = 0; i < most_steps; ++i) attempt([&] { step(); });
     attempt([&] { environment_.thaw(); });
     attempt([&] { reshape(); });
-    for (std::size_t i = 0; i < most_edits; ++i) attempt([&] { edit(); });
+    for (std::size_t i = 0; i < most_edits_of_opened; ++i) attempt([&] { edit(); });
     attempt([&] { environment_.compact(); });
     attempt([&] { environment_.certify(); });
     attempt([&] { environment_.soup(); });
@@ -73,7 +73,7 @@ class Use {
   static void attempt(const Work& work) {
     const bool is_done = reads(work, {Error_code::other, Error_code::usage, Error_code::input,
                                       Error_code::not_certified, Error_code::outside});
-    totals.contradictions += is_done ? 0 : 1;
+    opened_totals.contradictions += is_done ? 0 : 1;
   }
 
   Point<D> place() { return place_in(snapshot_, in_); }
@@ -95,7 +95,7 @@ class Use {
     options.touch = in_.flag() ? Touch::stop : Touch::pass;
     const Point<D> from = place(), to = place();
     answer_move(snapshot_, *locator_, from, to, {}, counts);
-    ++totals.motions;
+    ++opened_totals.motions;
     answer_move(snapshot_, *locator_, from, to, options, counts);
   }
 
@@ -103,7 +103,7 @@ class Use {
     Edge_counts counts;
     const Edge_motion<D> motion{place(), place(), place()};
     answer_sweep(snapshot_, *locator_, motion, {}, counts);
-    ++totals.sweeps;
+    ++opened_totals.sweeps;
     answer_sweep(snapshot_, *locator_, motion, sweep_options(), counts);
   }
 
@@ -122,7 +122,7 @@ class Use {
       soup.faces.push_back({0, 1, 2});
     }
     bodies_.push_back(std::make_unique<Body<D>>(snapshot_, *locator_, soup));
-    ++totals.bodies;
+    ++opened_totals.bodies;
     particles_.push_back(bodies_.back()->particles()[0]);
   }
 
@@ -139,7 +139,7 @@ class Use {
       Step_report<D> report;
       Body_counts counts;
       body->step(targets, options, report, counts);
-      ++totals.steps;
+      ++opened_totals.steps;
       body->validate();
       restore_body(snapshot_, save(*body)).validate();
     }
@@ -156,7 +156,7 @@ class Use {
     for (std::size_t i = 0; i < most_changes; ++i)
       attempt([&] {
         change(reshaping);
-        ++totals.changes;
+        ++opened_totals.changes;
       });
     reshaping.finish();
   }
@@ -243,7 +243,7 @@ class Use {
       default:
         environment_.insert_point(c, middle_of(c));
     }
-    ++totals.edits;
+    ++opened_totals.edits;
   }
 
   Environment<D>& environment_;
@@ -256,8 +256,8 @@ class Use {
 
 }  // namespace
 
-const Used& used() { return totals; }
-Used& counted_uses() { return totals; }
+const Used& used() { return opened_totals; }
+Used& counted_uses() { return opened_totals; }
 
 template <int D>
 void use(Environment<D>& environment, Decoder& in) {

@@ -46,7 +46,7 @@ std::set<std::array<std::uint32_t, 2>> fixed_edges(Environment<D>& environment) 
 }
 
 template <int D>
-void cut_many(std::size_t worlds) {
+void cut_worlds(std::size_t worlds) {
   std::size_t fixed = 0, split = 0, slit = 0, opened = 0, refused = 0;
   const std::size_t count = std::max(oracle::scaled_count(worlds), worlds / 2);
   for (std::uint64_t number = 0; number < count; ++number) {
@@ -94,8 +94,8 @@ void cut_many(std::size_t worlds) {
   EXPECT_GT(opened, D == 2 ? count : count / 2);  // in space, cuts that small part few vertices
 }
 
-TEST(FreeSpace, IsNotTakenByCuts2D) { cut_many<2>(150); }
-TEST(FreeSpace, IsNotTakenByCuts3D) { cut_many<3>(40); }
+TEST(FreeSpace, IsNotTakenByCuts2D) { cut_worlds<2>(150); }
+TEST(FreeSpace, IsNotTakenByCuts3D) { cut_worlds<3>(40); }
 
 }  // namespace
 }  // namespace cellwalk

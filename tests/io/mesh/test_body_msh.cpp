@@ -26,11 +26,12 @@ Body_file<D> read(const std::string& text) {
   return file;
 }
 
-const std::string square = "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
+const std::string body_square = "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
 
 TEST(BodyMsh, ReadsLines) {
   // A point, a line of first order, one of second order (with its middle node last), and a further line.
-  const std::string text = msh(square, "4\n1 15 2 0 1 1\n2 1 2 0 1 1 2\n3 8 2 0 2 2 4 3\n4 1 2 0 1 4 1\n");
+  const std::string text =
+      msh(body_square, "4\n1 15 2 0 1 1\n2 1 2 0 1 1 2\n3 8 2 0 2 2 4 3\n4 1 2 0 1 4 1\n");
   const auto file = read<3>(text);
   EXPECT_EQ(file.body.edges, (Edges{{0, 1}, {0, 3}, {1, 3}}));
   EXPECT_TRUE(file.body.faces.empty());
@@ -70,7 +71,7 @@ TEST(BodyMsh, RefusesAHeightInThePlane) {
 
 TEST(BodyMsh, LeavesLinesOutOfMeshes) {
   const Folder folder;
-  const auto path = folder.write("b.msh", msh(square, "2\n1 3 2 0 1 1 2 3 4\n2 1 2 0 1 1 2\n"));
+  const auto path = folder.write("b.msh", msh(body_square, "2\n1 3 2 0 1 1 2 3 4\n2 1 2 0 1 1 2\n"));
   EXPECT_EQ(read_mesh(path).report.notes,
             (Notes{"1 point and line elements ignored", "every z is zero: the polygons are 2D cells"}));
 }
