@@ -37,8 +37,8 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("TRACE");
   command
       ->add_option("--environment", options->environment,
-                   "The environment that the bodies moved in, as check takes it; a trace in a grid of unit "
-                   "cubes holds its own")
+                   "The environment that the bodies moved in, as check takes it; for traces that do not "
+                   "hold a grid of unit cubes")
       ->type_name("ENV");
   add_choice(
       *command, "--sweep", options->sweep,
@@ -57,7 +57,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->capture_default_str();
   command->add_flag(
       "--shear", options->sheared,
-      "Shear the grid of unit cubes and all motion: cells are no cubes then, and cost the same");
+      "Shear the grid of the trace and all motion: cells are no cubes then, and cost the same");
   add_json(*command, options->json);
   add_examples(*command, {"cellwalk replay motion.trace --environment vessel.ovm",
                           "cellwalk replay grid.trace --sweep three_segments --repeat 21 --json times.json"});

@@ -32,7 +32,7 @@ class Bytes {
 constexpr std::size_t nx_at = 8, bodies_at = 20, steps_at = 24, obstacles_at = 28, fraction_at = 40,
                       speed_at = 56, indices_at = 64, padding_at = 76, starts_at = 80,
                       targets_at = starts_at + 192, answers_at = targets_at + 2 * 192,
-                      size = answers_at + 2 * 8;
+                      hexahedra_trace_size = answers_at + 2 * 8;
 
 /// A grid of 3 x 4 x 5 cells of which 3 are solid, one body, two steps.
 std::string sample_trace() {
@@ -52,7 +52,7 @@ std::string count(std::uint32_t value) { return Bytes().count(value).text().subs
 std::string number(double value) { return Bytes().number(value).text().substr(8); }
 
 TEST(HexahedraTrace, IsReadAsATraceOfBodies) {
-  ASSERT_EQ(sample_trace().size(), size);
+  ASSERT_EQ(sample_trace().size(), hexahedra_trace_size);
   const Body_trace trace = parse_trace("t.bin", sample_trace());
   EXPECT_TRUE(trace.touch_blocks);
   ASSERT_TRUE(trace.grid);
@@ -127,7 +127,7 @@ TEST(HexahedraTrace, RefusesDamage) {
     std::string bytes, message;
   } cases[] = {
       {sample_trace().substr(0, 63), "the file ends where the header should be: it is cut short"},
-      {sample_trace().substr(0, size - 1),
+      {sample_trace().substr(0, hexahedra_trace_size - 1),
        "announces 3 obstacles, 1 bodies and 2 steps, more than its 671 bytes hold: it is cut short, get it "
        "whole"},
       {sample_trace().substr(0, indices_at + 2),
@@ -185,7 +185,7 @@ TEST(HexahedraTrace, DamagedAtRandom) {
   for (int i = 0; i < 5000; ++i) {
     std::string bytes = sample_trace();
     for (auto n = 1 + random() % 3; n > 0; --n)
-      bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : size - 8)] = static_cast<char>(random());
+      bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : hexahedra_trace_size - 8)] = static_cast<char>(random());
     if (i % 5 == 0) bytes.resize(random() % bytes.size());
     try {
       parse_trace("t.bin", bytes);

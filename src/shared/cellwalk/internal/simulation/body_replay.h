@@ -75,6 +75,7 @@ class Body_replay {
   const Body_trace* trace_;
   Body_options options_;
   std::size_t first_body_;
+  std::size_t vertices_ = 0;               ///< of all bodies
   std::vector<std::size_t> first_vertex_;  ///< of each body
   std::vector<std::vector<std::uint32_t>> degrees_;
   std::vector<Body<3>> bodies_;
