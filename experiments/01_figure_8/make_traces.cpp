@@ -33,8 +33,8 @@ std::string described(const Body_trace& trace) {
   for (std::size_t i = 0; i < trace.answers.size(); i += of_move) {
     const auto answers = std::span(trace.answers).subspan(i, of_move);
     const auto hits = [&](std::uint8_t bit) {
-      return static_cast<std::uint64_t>(std::ranges::count_if(
-          answers.subspan(1), [bit](std::uint8_t a) { return (a & bit) != 0; }));
+      return static_cast<std::uint64_t>(
+          std::ranges::count_if(answers.subspan(1), [bit](std::uint8_t a) { return (a & bit) != 0; }));
     };
     vertices += answers[0];
     edges += hits(body_trace_blocked);
@@ -62,8 +62,7 @@ int main(int argc, char** argv) {
   std::string file;
   Trace_options options;
   app.add_option("file", file, "trace to write")->required();
-  const std::map<std::string, Motion> motions{
-      {"deforming", Motion::deforming}, {"rigid", Motion::rigid}};
+  const std::map<std::string, Motion> motions{{"deforming", Motion::deforming}, {"rigid", Motion::rigid}};
   app.add_option("--motion", options.motion, "how the bodies move")
       ->transform(CLI::CheckedTransformer(motions, CLI::ignore_case));
   app.add_option("--cells", options.cells, "cells along each axis");

@@ -42,7 +42,8 @@ Trace read_hexahedra(const std::filesystem::path& file) {
   trace.obstacles = std::move(from.grid->solid);
   trace.bodies = static_cast<std::uint32_t>(from.bodies.size());
   trace.steps = from.steps;
-  const auto origin = nlohmann::json::parse(std::ifstream(std::filesystem::path(file).replace_extension("json")));
+  const auto origin =
+      nlohmann::json::parse(std::ifstream(std::filesystem::path(file).replace_extension("json")));
   trace.seed = origin.at("seed");
   trace.body_side = origin.at("body_side");
   trace.speed = origin.at("speed");

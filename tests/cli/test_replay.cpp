@@ -50,9 +50,12 @@ TEST_F(Replay, GivesTheRecordedAnswers) {
     EXPECT_GT(report["counts"]["in_region"], 0.5 * trace_moves);
     const json& manifest = report["manifest"];
     EXPECT_EQ(manifest["sweep"], sweep);
-    EXPECT_EQ(manifest["trace"], (json{{"file", "t.bin"}, {"bodies", 20}, {"vertices", 160}, {"steps", 150}}));
-    EXPECT_EQ(manifest["environment"],
-              (json{{"grid", {6, 5, 4}}, {"solid", trace().grid->solid.size()}, {"sheared", false}, {"cells", 120}}));
+    EXPECT_EQ(manifest["trace"],
+              (json{{"file", "t.bin"}, {"bodies", 20}, {"vertices", 160}, {"steps", 150}}));
+    EXPECT_EQ(
+        manifest["environment"],
+        (json{
+            {"grid", {6, 5, 4}}, {"solid", trace().grid->solid.size()}, {"sheared", false}, {"cells", 120}}));
   }
   const json leaning = replay({"t.bin", "--shear"});
   EXPECT_EQ(leaning["mismatches"], 0);

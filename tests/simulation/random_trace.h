@@ -35,8 +35,7 @@ inline Traced_body hexahedron() {
   return body;
 }
 
-inline Corners box(const Point<3>& middle, double side, double tremble,
-                                                Random& random) {
+inline Corners box(const Point<3>& middle, double side, double tremble, Random& random) {
   Corners corners;
   for (std::size_t v = 0; v < 8; ++v)
     for (std::size_t k = 0; k < 3; ++k)
@@ -79,8 +78,8 @@ Body_trace start_of_hexahedra(const std::array<std::uint32_t, 3>& cells, double 
 
 inline Body_trace random_trace(const Random_trace_options& options) {
   Random start_random(options.seed);
-  Body_trace start = start_of_hexahedra(
-      options.cells, options.obstacle_fraction, options.bodies, start_random, [&] {
+  Body_trace start =
+      start_of_hexahedra(options.cells, options.obstacle_fraction, options.bodies, start_random, [&] {
         Point<3> middle;
         for (std::size_t k = 0; k < 3; ++k) middle[k] = start_random.real(0, options.cells[k]);
         return box(middle, options.body_side, 0.01, start_random);

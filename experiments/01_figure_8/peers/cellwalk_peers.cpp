@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cellwalk itself: its steps by the rule of traces, exact and with contacts reported, in the certified environment of
-// the trace.
+// Cellwalk itself: its steps by the rule of traces, exact and with contacts reported, in the certified
+// environment of the trace.
 #include <cellwalk/internal/simulation/body_replay.h>
 #include <cellwalk/internal/simulation/trace_environment.h>
 

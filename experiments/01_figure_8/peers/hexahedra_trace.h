@@ -26,7 +26,8 @@ inline Traced_body hexahedron() {
   body.vertices = trace_vertices;
   for (std::uint32_t v = 0; v < trace_vertices; ++v)
     for (std::size_t k = 0; k < trace_edges; ++k)
-      if (const auto w = static_cast<std::uint32_t>(trace_neighbour(v, k)); v < w) body.edges.push_back({v, w});
+      if (const auto w = static_cast<std::uint32_t>(trace_neighbour(v, k)); v < w)
+        body.edges.push_back({v, w});
   return body;
 }
 

@@ -55,13 +55,13 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check(whole_number(0, most_rounds))
       ->capture_default_str();
-  command->add_flag(
-      "--shear", options->sheared,
-      "Shear the grid of the trace and all motion: cells are no cubes then, and cost the same");
+  command->add_flag("--shear", options->sheared,
+                    "Shear the grid of the trace and all motion: cells are no cubes then, and cost the same");
   add_json(*command, options->json);
   add_examples(*command, {"cellwalk replay motion.trace --environment vessel.ovm",
                           "cellwalk replay grid.trace --sweep three_segments --repeat 21 --json times.json"});
-  command->callback([options, &chosen] { chosen = [options](Ranks& ranks) { run_replay(*options, ranks); }; });
+  command->callback(
+      [options, &chosen] { chosen = [options](Ranks& ranks) { run_replay(*options, ranks); }; });
 }
 
 }  // namespace cellwalk::cli

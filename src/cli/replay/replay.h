@@ -26,8 +26,8 @@ struct Replay_report {
   std::string summary;
 };
 
-/// Replays a trace in its grid, or in the environment of a file; ranks share the bodies. The report is that of
-/// all, on the first rank.
+/// Replays a trace in its grid, or in the environment of a file; ranks share the bodies. The report is that
+/// of all, on the first rank.
 /// \throw Error naming the trace, the environment, or the option that does not apply
 std::optional<Replay_report> replay(Body_trace trace, const Replay_options& options, Ranks& ranks);
 

@@ -145,11 +145,10 @@ ordered_json manifest(const Body_trace& trace, const Environment<3>& environment
   return result;
 }
 
-std::string summary(const Body_trace& trace, const Environment<3>& environment,
-                    const Replay_options& options, const Rounds& replayed,
-                    const std::vector<double>& ns_per_move, const ordered_json& us) {
-  std::string text = fmt::format("{}: {} bodies with {} vertices, {} steps, among {} cells{}\n", options.trace,
-                                 trace.bodies.size(), trace.vertices(), trace.steps,
+std::string summary(const Body_trace& trace, const Environment<3>& environment, const Replay_options& options,
+                    const Rounds& replayed, const std::vector<double>& ns_per_move, const ordered_json& us) {
+  std::string text = fmt::format("{}: {} bodies with {} vertices, {} steps, among {} cells{}\n",
+                                 options.trace, trace.bodies.size(), trace.vertices(), trace.steps,
                                  environment.snapshot().cell_count(), options.sheared ? ", sheared" : "");
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);

@@ -108,7 +108,8 @@ Traced_body hexahedron() {
 void append_answers(std::uint32_t vertex, unsigned answer, std::vector<std::uint8_t>& answers) {
   answers.push_back((answer & vertex_bit) != 0 ? body_trace_blocked : 0);
   const auto append = [&](std::uint32_t k) {
-    const unsigned edge = answer >> (first_edge_bit + k) & 1, triangle = answer >> (first_triangle_bit + k) & 1;
+    const unsigned edge = answer >> (first_edge_bit + k) & 1,
+                   triangle = answer >> (first_triangle_bit + k) & 1;
     answers.push_back(static_cast<std::uint8_t>(edge * body_trace_blocked + triangle * body_trace_swept));
   };
   for (std::uint32_t k = hexahedron_edges; k-- > 0;)

@@ -121,7 +121,8 @@ void take_environment(Binary_reader& in, Body_trace& trace) {
   if (touch > 1) in.fail(fmt::format("the rule of touches is {}: 0 or 1 is expected", touch));
   trace.touch_blocks = touch == 1;
   const auto has_grid = in.take<std::uint32_t>("the number that announces a grid");
-  if (has_grid > 1) in.fail(fmt::format("the number that announces a grid is {}: 0 or 1 is expected", has_grid));
+  if (has_grid > 1)
+    in.fail(fmt::format("the number that announces a grid is {}: 0 or 1 is expected", has_grid));
   if (has_grid == 0) return;
   Traced_grid& grid = trace.grid.emplace();
   for (std::uint32_t& n : grid.cells) n = in.take<std::uint32_t>("the grid");
@@ -140,15 +141,15 @@ void take_motion(Binary_reader& in, Body_trace& trace) {
     vertices += trace.bodies.back().vertices;
     if (vertices > in.left() / sizeof(Point<3>))
       in.fail(
-           fmt::format("announces {} vertices of bodies, more than the {} bytes left hold: it is cut short, "
-                       "get it whole",
-                       vertices, in.left()));
+          fmt::format("announces {} vertices of bodies, more than the {} bytes left hold: it is cut short, "
+                      "get it whole",
+                      vertices, in.left()));
   }
   if (vertices > 0 && trace.steps > in.left() / (2 * sizeof(Point<3>) * vertices))
     in.fail(
-         fmt::format("announces {} steps of {} vertices, more than the {} bytes left hold: it is cut short, "
-                     "get it whole",
-                     trace.steps, vertices, in.left()));
+        fmt::format("announces {} steps of {} vertices, more than the {} bytes left hold: it is cut short, "
+                    "get it whole",
+                    trace.steps, vertices, in.left()));
   trace.before = take_values<Point<3>>(in, (std::uint64_t{trace.steps} + 1) * vertices, "the positions");
   trace.targets = take_values<Point<3>>(in, trace.steps * vertices, "the targets");
   const auto has_answers = in.take<std::uint8_t>("the byte that announces answers");
@@ -162,7 +163,7 @@ void take_motion(Binary_reader& in, Body_trace& trace) {
   }
   if (in.left() > 0)
     in.fail(
-         fmt::format("goes on for {} bytes after what it announces: it is damaged, get it anew", in.left()));
+        fmt::format("goes on for {} bytes after what it announces: it is damaged, get it anew", in.left()));
 }
 
 }  // namespace
@@ -194,8 +195,9 @@ Body_trace parse_trace(const std::string& name, std::string_view bytes) {
   if (bytes.starts_with(hexahedra_magic)) return parse_hexahedra(name, bytes);
   const bool has_environment = bytes.starts_with(grid_magic);
   if (!has_environment && !bytes.starts_with(plain_magic))
-    fail(name, fmt::format("is no trace: it begins with none of {}, {} and {}; name a file of recorded motion",
-                           hexahedra_magic, plain_magic, grid_magic));
+    fail(name,
+         fmt::format("is no trace: it begins with none of {}, {} and {}; name a file of recorded motion",
+                     hexahedra_magic, plain_magic, grid_magic));
   Binary_reader in(name, bytes.substr(plain_magic.size()), false);
   Body_trace trace;
   if (has_environment) take_environment(in, trace);

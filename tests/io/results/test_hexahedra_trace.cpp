@@ -60,18 +60,10 @@ TEST(HexahedraTrace, IsReadAsATraceOfBodies) {
   EXPECT_EQ(trace.grid->solid, (std::vector<std::uint32_t>{0, 7, 59}));
   ASSERT_EQ(trace.bodies.size(), 1u);
   EXPECT_EQ(trace.bodies[0].vertices, 8u);
-  EXPECT_EQ(trace.bodies[0].edges, (std::vector<std::array<std::uint32_t, 2>>{{0, 1},
-                                                                              {0, 2},
-                                                                              {0, 4},
-                                                                              {1, 3},
-                                                                              {1, 5},
-                                                                              {2, 3},
-                                                                              {2, 6},
-                                                                              {3, 7},
-                                                                              {4, 5},
-                                                                              {4, 6},
-                                                                              {5, 7},
-                                                                              {6, 7}}));
+  EXPECT_EQ(
+      trace.bodies[0].edges,
+      (std::vector<std::array<std::uint32_t, 2>>{
+          {0, 1}, {0, 2}, {0, 4}, {1, 3}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 6}, {5, 7}, {6, 7}}));
   EXPECT_TRUE(trace.bodies[0].faces.empty());
   EXPECT_EQ(trace.steps, 2u);
   ASSERT_EQ(trace.before.size(), 24u);
@@ -185,7 +177,8 @@ TEST(HexahedraTrace, DamagedAtRandom) {
   for (int i = 0; i < 5000; ++i) {
     std::string bytes = sample_trace();
     for (auto n = 1 + random() % 3; n > 0; --n)
-      bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : hexahedra_trace_size - 8)] = static_cast<char>(random());
+      bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : hexahedra_trace_size - 8)] =
+          static_cast<char>(random());
     if (i % 5 == 0) bytes.resize(random() % bytes.size());
     try {
       parse_trace("t.bin", bytes);

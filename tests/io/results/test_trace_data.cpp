@@ -40,7 +40,8 @@ TEST(PublicTraceFiles, AreReadAndWrittenAnew) {
     write_trace(file, trace);
     file.commit();
     const Body_trace again = read_trace(folder / t.file);
-    EXPECT_TRUE(again.before == trace.before && again.targets == trace.targets && again.answers == trace.answers);
+    EXPECT_TRUE(again.before == trace.before && again.targets == trace.targets &&
+                again.answers == trace.answers);
   }
 }
 

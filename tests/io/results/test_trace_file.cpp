@@ -182,13 +182,14 @@ TEST(TraceFile, RefusesDamagedGrids) {
       {good.substr(0, 24), "the file ends where the grid should be: it is cut short"},
       {good.substr(0, 28), "the file ends where the number of obstacles should be: it is cut short"},
       {good.substr(0, 36), "the file ends within the obstacles: it is cut short, get it whole"},
-      {changed(good, 28, counts({0xffffffff})), "the file ends within the obstacles: it is cut short, get it whole"},
+      {changed(good, 28, counts({0xffffffff})),
+       "the file ends within the obstacles: it is cut short, get it whole"},
       {grid(3, 0, 5), "a grid of 3 x 0 x 5 cells: there must be some, and no more than 32-bit indices name"},
       {grid(3, 4, 4), "obstacle 1 is cell 59, of 48: the trace is damaged"},
       {changed(good, 32, counts({59})), "obstacle 1 is cell 59, after cell 59: obstacles must ascend"},
-      {grid(1000, 1001, 1),
-       "announces a grid of 1001000 cells in " + std::to_string(good.size()) +
-           " bytes, too large for so little motion: it may be damaged; get it anew, or record in a smaller grid"}};
+      {grid(1000, 1001, 1), "announces a grid of 1001000 cells in " + std::to_string(good.size()) +
+                                " bytes, too large for so little motion: it may be damaged; get it anew, or "
+                                "record in a smaller grid"}};
   for (const auto& c : cases)
     EXPECT_EQ(refusal([&] { parse_trace("t.bin", c.bytes); }), "t.bin: " + c.message);
   EXPECT_EQ(parse_trace("t.bin", grid(1000, 1000, 1)).grid->cell_count(), 1'000'000u);
@@ -305,7 +306,9 @@ TEST(TraceFile, RefusesToWriteWhatItWouldNotRead) {
             }),
             "body 0: face 1 has a side from vertex 1 to vertex 3, which is no edge of the body");
   EXPECT_EQ(message_of([](Body_trace& t) { t.answers[3] = 9; }), "answer 3 has an unknown bit: it is 9");
-  EXPECT_EQ(message_of([](Body_trace& t) { t.grid = {{1, 1, 1}, {0, 0}}; }),
+  EXPECT_EQ(message_of([](Body_trace& t) {
+              t.grid = {{1, 1, 1}, {0, 0}};
+            }),
             "obstacle 1 is cell 0, after cell 0: obstacles must ascend");
   EXPECT_EQ(folder.file_count(), 0u);
 }

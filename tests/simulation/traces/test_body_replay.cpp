@@ -130,7 +130,8 @@ TEST(BodyReplay, WrongWallsAreNoticed) {
     std::vector<std::uint32_t> solid = solid_rooms;
     solid.erase(solid.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_GT(judge_answers(trace, solid).wrong, 0) << solid_rooms[i];
-    EXPECT_GT(mismatches_of(rooms<3>({6, 5, 4}, solid), trace, body_trace_options(Sweep::triangle, trace)), 0u);
+    EXPECT_GT(mismatches_of(rooms<3>({6, 5, 4}, solid), trace, body_trace_options(Sweep::triangle, trace)),
+              0u);
   }
   std::vector<std::uint32_t> solid = solid_rooms;
   solid.insert(solid.begin(), 1);

@@ -56,9 +56,9 @@ TEST(GridReplay, BruteForceSeesFalseAnswers) {
   int different = 0;
   test::for_each_recorded_move(crowded(), [&](const Recorded_move& move) {
     if (move.stays())
-      different += !std::ranges::equal(move.answers,
-                                       test::answers_where_touches_block(fewer_walls, move.from, move.target,
-                                                                         move.neighbours));
+      different += !std::ranges::equal(
+          move.answers,
+          test::answers_where_touches_block(fewer_walls, move.from, move.target, move.neighbours));
   });
   EXPECT_GT(different, 100);
 }
@@ -92,7 +92,8 @@ TEST(GridReplay, ShearedCellsAreLikeCubes) {
       EXPECT_EQ(replayed.mismatches, 0u);
       return replayed.counts;
     };
-    const Edge_counts a = counts_of(cubes, crowded(), false).edges, b = counts_of(leaning, moved, false).edges;
+    const Edge_counts a = counts_of(cubes, crowded(), false).edges,
+                      b = counts_of(leaning, moved, false).edges;
     EXPECT_EQ(a.event_sweeps, b.event_sweeps);
     // Single precision leaves other signs in doubt.
     const auto expect_near = [](std::uint64_t x, std::uint64_t y, double part) {
@@ -193,7 +194,7 @@ TEST(GridReplay, NamesWalls) {
       double off = 1;
       for (const Point<3>& end : move.neighbours) {
         const Point<3>&a = move.is_blocked() ? move.from : move.target,
-             &b = move.is_blocked() ? move.target : end;
+              &b = move.is_blocked() ? move.target : end;
         off = std::min(off, length(contact.point - (a + contact.time * (b - a))));
       }
       EXPECT_LT(off, 1e-12);

@@ -62,7 +62,8 @@ void expect_recorded_answers(const Body_trace& trace, const Snapshot<3>& snapsho
 
 TEST(ReplayCertificates, GiveTheAnswersOfAGrid) {
   const Body_trace trace = test::random_trace({});
-  const Environment<3> grid = trace_environment(*trace.grid), sheared_grid = trace_environment(*trace.grid, sheared<3>());
+  const Environment<3> grid = trace_environment(*trace.grid),
+                       sheared_grid = trace_environment(*trace.grid, sheared<3>());
   expect_recorded_answers(trace, grid.snapshot());
   expect_recorded_answers(mapped(trace, sheared<3>()), sheared_grid.snapshot());
 }

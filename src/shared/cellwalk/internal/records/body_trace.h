@@ -36,8 +36,8 @@ inline std::vector<std::uint32_t> degrees(const Traced_body& body) {
   return degrees;
 }
 
-/// A grid of unit cubes. Cell (ix,iy,iz) is the cube there, its index ix + nx (iy + ny iz). The outer boundary is
-/// a wall, and so are the facets of solid cells.
+/// A grid of unit cubes. Cell (ix,iy,iz) is the cube there, its index ix + nx (iy + ny iz). The outer
+/// boundary is a wall, and so are the facets of solid cells.
 struct Traced_grid {
   std::array<std::uint32_t, 3> cells{};  ///< nx, ny, nz
   std::vector<std::uint32_t> solid;      ///< their indices, ascending
