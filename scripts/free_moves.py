@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Traces of free moves only: vertices that the recorded answers hold in place get their own position as target.
 
-The formats are those of docs/formats.md. Whatever else moves meets the same positions as before, since a vertex that is held stays there.
+The format is that of docs/formats.md. Whatever else moves meets the same positions as before, since a vertex that is held stays there.
 """
 from array import array
 
-VERTICES = 8  # of a body in a grid
-SEGMENT_BITS = 0b1111  # of its answer: the way of the vertex, and its three edges
-BLOCKED_BIT = 1  # of an answer about any body
+BLOCKED_BIT = 1  # of an answer
 
 
 class Reader:
@@ -24,32 +22,17 @@ class Reader:
         return values
 
 
-def free_moves_in_grid(data):
-    """Of a trace ECCDTRC1: its bytes, and how many moves are made to stay."""
+def free_moves(data):
+    """Of a trace with answers: its bytes, and how many moves are made to stay."""
+    if data[:8] not in (b"ECCDTRC2", b"ECCDTRC3"):
+        raise ValueError("it is no trace, or one of an old format")
     read = Reader(data)
     read.at = 8
-    _, _, _, bodies, steps, obstacles = read.take("I", 6)
-    read.take("I", 2 + 6 + obstacles + obstacles % 2)  # the seed, three numbers and the obstacles
-    head = data[:read.at]
-    size = 3 * VERTICES * bodies
-    start, targets = read.take("d", size), read.take("d", steps * size)
-    answers = read.take("B", steps * bodies * VERTICES)
-    now, held = array("d", start), 0
-    for move, answer in enumerate(answers):
-        at, of_body = 3 * move, 3 * move % size
-        if answer & SEGMENT_BITS:
-            targets[at:at + 3] = now[of_body:of_body + 3]
-            answers[move] = 0
-            held += 1
-        else:
-            now[of_body:of_body + 3] = targets[at:at + 3]
-    return head + start.tobytes() + targets.tobytes() + answers.tobytes(), held
-
-
-def free_moves_of_bodies(data):
-    """The same of a trace ECCDTRC2 with answers."""
-    read = Reader(data)
-    read.at = 8
+    if data[:8] == b"ECCDTRC3":
+        _, has_grid = read.take("I", 2)
+        if has_grid:
+            *_, solid = read.take("I", 4)
+            read.take("I", solid)
     bodies, steps = read.take("I", 2)
     answers_of_vertex = []  # of all bodies: one, and one for each neighbour
     for _ in range(bodies):
@@ -74,13 +57,3 @@ def free_moves_of_bodies(data):
             held += 1
         first = end
     return head + before.tobytes() + targets.tobytes() + b"\1" + answers.tobytes(), held
-
-
-def free_moves(data):
-    """Of a trace of either format."""
-    magic = data[:8]
-    if magic == b"ECCDTRC1":
-        return free_moves_in_grid(data)
-    if magic == b"ECCDTRC2":
-        return free_moves_of_bodies(data)
-    raise ValueError("it is no trace")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The motion of the paper's figure 8: the scene of `cellwalk run` without a scene, by the rule of traces.
 #include <cellwalk/generators/body_shapes.h>
-#include <cellwalk/internal/simulation/trace_recorder.h>
+#include <cellwalk/internal/simulation/target_recorder.h>
 #include <cellwalk/io/scene.h>
 #include <cellwalk/simulation/world.h>
 
@@ -28,24 +28,24 @@ Scene<3> scene_of(const Trace_options& options) {
 }
 
 /// The rule of traces, and contacts, which tell the bodies how to bounce.
-Body_options rule() {
-  Body_options options = trace_options(Sweep::triangle);
+Body_options rule(const Body_trace& trace) {
+  Body_options options = body_trace_options(Sweep::triangle, trace);
   options.reports_blocked = false;
   return options;
 }
 
 }  // namespace
 
-Trace record_deforming(const Snapshot<3>& snapshot, Trace start, const Trace_options& options) {
+Made_trace record_deforming(const Snapshot<3>& snapshot, Body_trace start, const Trace_options& options) {
   const Scene<3> scene = scene_of(options);
   const Body_start<3>& cubes = scene.bodies.front();
-  start.speed = cubes.cloud->speed * scene.time_step;
-  World<3> world(snapshot, scene, {generate_body(std::get<Body_shape<3>>(cubes.source))}, rule());
+  World<3> world(snapshot, scene, {generate_body(std::get<Body_shape<3>>(cubes.source))}, rule(start));
   for (const Moving_body<3>& moving : world.bodies()) {
     const auto positions = moving.body().positions();
-    start.start_positions.insert(start.start_positions.end(), positions.begin(), positions.end());
+    start.before.insert(start.before.end(), positions.begin(), positions.end());
   }
-  Trace_recorder recorder(snapshot, Locator<3>(snapshot), std::move(start));
+  const Locator<3> locator(snapshot);
+  Target_recorder recorder(snapshot, locator, std::move(start));
   std::vector<Point<3>> targets;
   for (std::uint32_t step = 0; step < options.steps; ++step) {
     world.step();
@@ -58,7 +58,7 @@ Trace record_deforming(const Snapshot<3>& snapshot, Trace start, const Trace_opt
       if (!std::ranges::equal(world.positions(b), recorder.bodies()[b].positions()))
         throw std::logic_error("a body of the simulation is not where its trace has it");
   }
-  return recorder.trace();
+  return {recorder.trace(), cubes.cloud->speed * scene.time_step};
 }
 
 }  // namespace cellwalk::figure_8

@@ -2,8 +2,6 @@
 // Replays traces with all methods, in one process, and writes figure_8.csv and manifest.json.
 //
 //   figure_8 TRACE ... -o DIR [--rounds N] [--seconds S] [--only REGEX] [--commit NAME]
-#include <cellwalk/internal/io/trace_file.h>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "report.h"
+#include "trace_files.h"
 
 namespace {
 
@@ -29,7 +28,7 @@ std::uint64_t held(const Trace& trace) {
 
 Result measure_file(const std::filesystem::path& file, const std::vector<Family>& families,
                     const Measure_options& options) {
-  const Trace trace = io::read_trace(file);
+  const Trace trace = read_hexahedra(file);
   const Grid_world world = grid_world(trace);
   Result result{file.stem().string(),
                 trace.cells(),

@@ -9,10 +9,10 @@
 
 namespace cellwalk::figure_8 {
 
-/// Record a motion, from a trace that has its grid, and no bodies yet.
+/// Record a motion, from a trace that has its grid and bodies, which stand nowhere yet.
 /// \throw as make_trace()
-Trace record_deforming(const Snapshot<3>& snapshot, Trace start, const Trace_options& options);
-Trace record_rigid(const Snapshot<3>& snapshot, Trace start, const Trace_options& options);
+Made_trace record_deforming(const Snapshot<3>& snapshot, Body_trace start, const Trace_options& options);
+Made_trace record_rigid(const Snapshot<3>& snapshot, Body_trace start, const Trace_options& options);
 
 }  // namespace cellwalk::figure_8
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Rigid cubes in flight, a second motion for figure 8: no deformation, fewer contacts, slow turns.
-#include <cellwalk/internal/simulation/trace_recorder.h>
+#include <cellwalk/internal/simulation/target_recorder.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "motions.h"
+#include "peers/hexahedra_trace.h"
 #include "rigid_fit.h"
 
 namespace cellwalk::figure_8 {
@@ -87,7 +88,7 @@ Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_
     // Most places are refused, and cheaply so where a vertex is not in free space.
     if (std::ranges::any_of(positions, [&](const Point<3>& x) { return !locator.particle_at(x); })) continue;
     try {
-      const Body<3> body(snapshot, locator, trace_body_soup(positions));
+      const Body<3> body(snapshot, locator, {{positions.begin(), positions.end()}, hexahedron().edges, {}});
       starts.insert(starts.end(), positions.begin(), positions.end());
       return flyer;
     } catch (const Error& error) {
@@ -102,14 +103,14 @@ Flyer place(const Snapshot<3>& snapshot, const Locator<3>& locator, const Trace_
 
 }  // namespace
 
-Trace record_rigid(const Snapshot<3>& snapshot, Trace start, const Trace_options& options) {
-  start.speed = options.speed.value_or(usual_speed);
+Made_trace record_rigid(const Snapshot<3>& snapshot, Body_trace start, const Trace_options& options) {
+  const double speed = options.speed.value_or(usual_speed);
   const Locator<3> locator(snapshot);
   Random random(scramble(options.seed));
   std::vector<Flyer> flyers;
   for (std::uint32_t b = 0; b < options.bodies; ++b)
-    flyers.push_back(place(snapshot, locator, options, start.speed, random, start.start_positions));
-  Trace_recorder recorder(snapshot, locator, std::move(start));
+    flyers.push_back(place(snapshot, locator, options, speed, random, start.before));
+  Target_recorder recorder(snapshot, locator, std::move(start));
   std::vector<Point<3>> targets;
   for (std::uint32_t step = 0; step < options.steps; ++step) {
     targets.clear();
@@ -120,15 +121,14 @@ Trace record_rigid(const Snapshot<3>& snapshot, Trace start, const Trace_options
       targets.insert(targets.end(), goals.begin(), goals.end());
     }
     recorder.step(targets);
-    for (std::uint32_t b = 0; b < options.bodies; ++b) {
-      const auto answers =
-          std::span(recorder.trace().answers).last(targets.size()).subspan(b * trace_vertices);
-      if (std::ranges::any_of(answers.first(trace_vertices),
-                              [](unsigned a) { return (a & (trace_segment_bit | trace_edge_bits)) != 0; }))
+    constexpr std::size_t of_body = trace_vertices * (1 + trace_edges);
+    const auto answers = std::span(recorder.trace().answers).last(options.bodies * of_body);
+    for (std::uint32_t b = 0; b < options.bodies; ++b)
+      if (std::ranges::any_of(answers.subspan(b * of_body, of_body),
+                              [](unsigned a) { return (a & body_trace_blocked) != 0; }))
         flyers[b].change_course(random);
-    }
   }
-  return recorder.trace();
+  return {recorder.trace(), speed};
 }
 
 }  // namespace cellwalk::figure_8

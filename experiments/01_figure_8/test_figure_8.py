@@ -10,7 +10,9 @@ compared: its counts change with every better certificate.
 """
 
 import csv
+import json
 import math
+import shutil
 import struct
 import subprocess
 import sys
@@ -58,28 +60,30 @@ def kept(row):
     return {c: row[c] if c in ["trace", "method", *ANSWERS, *counts] else "" for c in COLUMNS}
 
 
+HEXAHEDRON = 12 + 8 * 12  # bytes of a body: counts, and two vertices of each of 12 edges
+
+
 class Trace:
-    """A trace in a grid (docs/formats.md), replayed by its own answers."""
+    """A trace of hexahedra in a grid (docs/formats.md). Each move has four answers: the vertex, and three edges."""
 
     def __init__(self, path):
         data = path.read_bytes()
-        self.bodies, self.steps, obstacles = struct.unpack("<3I", data[20:32])
-        self.side, self.speed = struct.unpack("<2d", data[48:64])
-        start = 64 + 4 * (obstacles + obstacles % 2)
-        vertices = 8 * self.bodies
-        points = list(struct.iter_unpack("<3d", data[start:len(data) - vertices * self.steps]))
-        self.starts, self.targets = points[:vertices], points[vertices:]
-        self.answers = data[len(data) - vertices * self.steps:]
+        origin = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
+        self.side, self.speed = origin["body_side"], origin["speed"]
+        solid, = struct.unpack("<I", data[28:32])
+        self.bodies, self.steps = struct.unpack("<2I", data[32 + 4 * solid:40 + 4 * solid])
+        self.vertices = 8 * self.bodies
+        start = 40 + 4 * solid + HEXAHEDRON * self.bodies
+        end = start + 24 * self.vertices * (2 * self.steps + 1)
+        points = list(struct.iter_unpack("<3d", data[start:end]))
+        self.before, self.targets = points[:self.vertices * (self.steps + 1)], points[self.vertices * (self.steps + 1):]
+        self.answers = data[end + 1:]
 
     def motion(self, body):
         """Before each step of a body, and after the last: its positions, and whether walls hold one back in the step."""
-        x = self.starts[8 * body:8 * body + 8]
-        for step in range(self.steps):
-            at = 8 * (step * self.bodies + body)
-            held = [a & 0b1111 != 0 for a in self.answers[at:at + 8]]
-            yield list(x), any(held)
-            x = [old if stays else new for old, new, stays in zip(x, self.targets[at:at + 8], held)]
-        yield x, False
+        for step in range(self.steps + 1):
+            at = self.vertices * step + 8 * body
+            yield self.before[at:at + 8], any(a & 1 for a in self.answers[4 * at:4 * at + 32])
 
     def strain(self, x):
         """The largest change of an edge against its length at rest."""
@@ -91,14 +95,12 @@ def centre(x):
 
 
 def spoil(source, target):
-    """Copies a trace with the recorded answers of its last move turned round: bits 0 and 4, of one without any hit."""
+    """Copies a trace with recorded answers of its last free move turned round: the vertex, and the triangle of its first edge."""
     data = bytearray(source.read_bytes())
-    bodies, steps = struct.unpack("<II", data[20:28])
-    answers = len(data) - 8 * bodies * steps
-    last = max(i for i in range(answers, len(data)) if data[i] == 0)
-    assert last >= len(data) - 8 * bodies, "no move of the last step is free"
-    data[last] = 0b0010001
+    last = max(i for i in range(len(data) - 4 * Trace(source).vertices, len(data), 4) if not any(data[i:i + 4]))
+    data[last:last + 2] = b"\1\2"
     target.write_bytes(data)
+    shutil.copy(source.with_suffix(".json"), target.with_suffix(".json"))
 
 
 class Figure8(unittest.TestCase):
@@ -152,10 +154,10 @@ class Figure8(unittest.TestCase):
                         "output.picture=false"], check=True, stdout=subprocess.DEVNULL)
         trace = Trace(self.out / "traces" / "n_1e3.bin")
         data = (self.out / "run.trace").read_bytes()
-        head = 16 + trace.bodies * (12 + 8 * 12)
-        points = list(struct.iter_unpack("<3d", data[head:head + 3 * 24 * len(trace.starts)]))
-        self.assertEqual(trace.starts, points[:len(trace.starts)])
-        self.assertEqual(trace.targets[:len(trace.starts)], points[2 * len(trace.starts):], "goals of the first step")
+        head = 16 + trace.bodies * HEXAHEDRON
+        points = list(struct.iter_unpack("<3d", data[head:head + 3 * 24 * trace.vertices]))
+        self.assertEqual(trace.before[:trace.vertices], points[:trace.vertices])
+        self.assertEqual(trace.targets[:trace.vertices], points[2 * trace.vertices:], "goals of the first step")
 
     def test_bodies_deform_recover_and_bounce(self):
         file, steps = self.out / "bounces.bin", 100

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "motions.h"
+#include "peers/hexahedra_trace.h"
 
 namespace cellwalk::figure_8 {
 namespace {
@@ -39,17 +40,12 @@ std::vector<std::uint32_t> solid_cells(const Trace_options& options) {
 
 }  // namespace
 
-Trace make_trace(const Trace_options& options) {
-  Trace start;
-  start.nx = options.cells[0];
-  start.ny = options.cells[1];
-  start.nz = options.cells[2];
-  start.bodies = options.bodies;
-  start.seed = options.seed;
-  start.obstacle_fraction = options.solid_share;
-  start.body_side = options.body_side;
-  start.obstacles = solid_cells(options);
-  const Environment<3> environment = trace_environment(start);
+Made_trace make_trace(const Trace_options& options) {
+  Body_trace start;
+  start.touch_blocks = true;
+  start.grid = {options.cells, solid_cells(options)};
+  start.bodies.assign(options.bodies, hexahedron());
+  const Environment<3> environment = trace_environment(*start.grid);
   const auto record = options.motion == Motion::rigid ? record_rigid : record_deforming;
   return record(environment.snapshot(), std::move(start), options);
 }

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_TRACE_MAKER_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_TRACE_MAKER_H
 
-#include <cellwalk/internal/records/trace.h>
+#include <cellwalk/internal/records/body_trace.h>
 
 #include <array>
 #include <cstdint>
@@ -28,7 +28,12 @@ struct Trace_options {
   std::uint64_t seed = 1;  ///< of the solid cells; of the places and courses of rigid bodies as well
 };
 
-/// Makes a trace. The answers are those of Trace_recorder. Same options, same bytes, on every machine.
+struct Made_trace {
+  Body_trace trace;  ///< of hexahedra in a grid, where touches block
+  double speed = 0;  ///< cells a step
+};
+
+/// Makes a trace. The answers are those of Target_recorder. Same options, same bytes, on every machine.
 ///
 /// Deforming bodies are those of `cellwalk run` without a scene (data/hexahedra.json): the same material, at
 /// the same places with the same velocities where the grid is the same. World moves them, but by the rule of
@@ -39,7 +44,7 @@ struct Trace_options {
 /// moved on and turned a little; a body of which a vertex was held back flies another way.
 /// \throw Error(usage) if the share cannot be reached, or a rigid body finds no place; Error(outside) if a
 ///        deforming one does not; Error(input) if a wall is touched
-Trace make_trace(const Trace_options& options);
+Made_trace make_trace(const Trace_options& options);
 
 }  // namespace cellwalk::figure_8
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scenes.h"
 
-#include <cellwalk/internal/io/body_trace_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/io/scene.h>
 #include <cellwalk/kernel/error.h>
@@ -64,7 +64,7 @@ Cell_soup<3> load_cells(const Scene_entry& entry) {
 }
 
 Loaded_scene load_scene(const Scene_entry& entry) {
-  Body_trace trace = io::read_body_trace(entry.trace);
+  Body_trace trace = io::read_trace(entry.trace);
   if (trace.answers.empty() || entry.first_step >= trace.steps)
     throw Error(Error_code::input,
                 fmt::format("{}: holds no answers, or no step {}", entry.trace.string(), entry.first_step));

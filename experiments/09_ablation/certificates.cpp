@@ -24,7 +24,7 @@ class Motion_by_choice {
         locator_(locator),
         trace_(trace),
         chosen_(chosen),
-        options_(body_trace_options(Sweep::triangle)),
+        options_(body_trace_options(Sweep::triangle, trace)),
         bodies_(trace.bodies.size()),
         reports_(bodies_.size()) {
     options_.clearance = chosen.regions;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Readers of tables, scenes, recorded motions, traces, and of what is compressed.
-#include <cellwalk/internal/io/body_trace_file.h>
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/io/gzip.h>
 #include <cellwalk/internal/io/query_file.h>
 #include <cellwalk/internal/io/repro_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 #include <cellwalk/io/scene.h>
 
 #include <algorithm>
@@ -50,19 +50,6 @@ void expect_finite(const std::vector<Point<3>>& points) {
   for (const Point<3>& p : points) demand(is_finite(p), "a coordinate is not finite");
 }
 
-void check_trace(const Trace& trace) {
-  demand(trace.start_positions.size() == std::size_t{trace.bodies} * trace_vertices &&
-             trace.targets.size() == trace.moves() && trace.answers.size() == trace.moves(),
-         "a trace's arrays do not fit its counts");
-  expect_finite(trace.start_positions);
-  expect_finite(trace.targets);
-  demand(std::is_sorted(trace.obstacles.begin(), trace.obstacles.end()) &&
-             (trace.obstacles.empty() || trace.obstacles.back() < trace.cells()),
-         "obstacles that are not in order, or not in the grid");
-  for (const std::uint8_t answer : trace.answers)
-    demand((answer & ~trace_all_bits) == 0, "an answer with an unknown bit");
-}
-
 void check_trace(const Body_trace& trace) {
   demand(trace.before.size() == (std::size_t{trace.steps} + 1) * trace.vertices() &&
              trace.targets.size() == trace.moves() &&
@@ -70,6 +57,12 @@ void check_trace(const Body_trace& trace) {
          "a trace's arrays do not fit its counts");
   expect_finite(trace.before);
   expect_finite(trace.targets);
+  if (trace.grid) {
+    const auto& solid = trace.grid->solid;
+    demand(std::ranges::adjacent_find(solid, std::greater_equal<>()) == solid.end() &&
+               (solid.empty() || solid.back() < trace.grid->cell_count()),
+           "obstacles that are not in order, or not in the grid");
+  }
   for (const Traced_body& body : trace.bodies) {
     const auto is_edge = [&body](std::uint32_t u, std::uint32_t v) {
       return std::ranges::binary_search(body.edges, std::array{std::min(u, v), std::max(u, v)});
@@ -134,7 +127,7 @@ void record(std::string_view bytes) {
 }
 
 void trace(std::string_view bytes) {
-  reads([&] { std::visit([](const auto& read) { check_trace(read); }, io::parse_any_trace("in", bytes)); });
+  reads([&] { check_trace(io::parse_trace("in", bytes)); });
 }
 
 void motion(std::string_view bytes) {

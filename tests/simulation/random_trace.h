@@ -3,14 +3,14 @@
 #ifndef CELLWALK_TESTS_SIMULATION_RANDOM_TRACE_H
 #define CELLWALK_TESTS_SIMULATION_RANDOM_TRACE_H
 
+#include <cellwalk/internal/simulation/target_recorder.h>
 #include <cellwalk/internal/simulation/trace_environment.h>
-#include <cellwalk/internal/simulation/trace_recorder.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace cellwalk::test {
@@ -23,14 +23,21 @@ struct Random_trace_options {
   std::uint64_t seed = 1;
 };
 
-inline Body_soup<3> trace_body_at(const Point<3>* first) {
-  return trace_body_soup(std::span<const Point<3>, trace_vertices>(first, trace_vertices));
+/// Where the vertices of a hexahedron are. Edges join vertex v to v^1, v^2 and v^4.
+using Corners = std::array<Point<3>, 8>;
+
+inline Traced_body hexahedron() {
+  Traced_body body;
+  body.vertices = 8;
+  for (std::uint32_t v = 0; v < 8; ++v)
+    for (const std::uint32_t w : {v ^ 1, v ^ 2, v ^ 4})
+      if (v < w) body.edges.push_back({v, w});
+  return body;
 }
 
-inline std::array<Point<3>, trace_vertices> box(const Point<3>& middle, double side, double tremble,
-                                                Random& random) {
-  std::array<Point<3>, trace_vertices> corners;
-  for (std::size_t v = 0; v < trace_vertices; ++v)
+inline Corners box(const Point<3>& middle, double side, double tremble, Random& random) {
+  Corners corners;
+  for (std::size_t v = 0; v < 8; ++v)
     for (std::size_t k = 0; k < 3; ++k)
       corners[v][k] = middle[k] + ((v >> k & 1) == 0 ? -0.5 : 0.5) * side + random.real(-tremble, tremble);
   return corners;
@@ -42,38 +49,44 @@ inline Vector<3> random_drift(double speed, Random& random) {
   return drift;
 }
 
-/// Header, solid cells and starts of a trace.
-inline Trace random_start(const Random_trace_options& options) {
-  Random random(options.seed);
-  Trace trace;
-  trace.nx = options.cells[0], trace.ny = options.cells[1], trace.nz = options.cells[2];
-  trace.seed = options.seed;
-  trace.obstacle_fraction = options.obstacle_fraction;
-  trace.body_side = options.body_side;
-  trace.speed = options.speed;
-  for (std::uint32_t c = 0; c < trace.cells(); ++c)
-    if (random.chance(options.obstacle_fraction)) trace.obstacles.push_back(c);
-  const Environment<3> environment = trace_environment(trace);
+/// A trace in which touches block, without steps: hexahedra in a grid in which each cell may be solid. They
+/// start where they can be registered.
+template <class Next_corners>
+Body_trace start_of_hexahedra(const std::array<std::uint32_t, 3>& cells, double solid_share,
+                              std::uint32_t bodies, Random& random, const Next_corners& next_corners) {
+  Body_trace trace;
+  trace.touch_blocks = true;
+  Traced_grid& grid = trace.grid.emplace();
+  grid.cells = cells;
+  for (std::uint32_t c = 0; c < grid.cell_count(); ++c)
+    if (random.chance(solid_share)) grid.solid.push_back(c);
+  const Environment<3> environment = trace_environment(grid);
   const Locator<3> locator(environment.snapshot());
-  while (trace.bodies < options.bodies) {
-    Point<3> middle;
-    for (std::size_t k = 0; k < 3; ++k) middle[k] = random.real(0, options.cells[k]);
-    const auto corners = box(middle, options.body_side, 0.01, random);
+  while (trace.bodies.size() < bodies) {
+    const Corners corners = next_corners();
     try {
-      const Body<3> registered(environment.snapshot(), locator, trace_body_soup(corners));
+      const Body<3> registered(environment.snapshot(), locator,
+                               {{corners.begin(), corners.end()}, hexahedron().edges, {}});
     } catch (const Error&) {
       continue;
     }
-    trace.start_positions.insert(trace.start_positions.end(), corners.begin(), corners.end());
-    ++trace.bodies;
+    trace.before.insert(trace.before.end(), corners.begin(), corners.end());
+    trace.bodies.push_back(hexahedron());
   }
   return trace;
 }
 
-inline Trace random_trace(const Random_trace_options& options) {
-  Trace start = random_start(options);
-  const Environment<3> environment = trace_environment(start);
-  Trace_recorder recorder(environment.snapshot(), Locator<3>(environment.snapshot()), std::move(start));
+inline Body_trace random_trace(const Random_trace_options& options) {
+  Random start_random(options.seed);
+  Body_trace start =
+      start_of_hexahedra(options.cells, options.obstacle_fraction, options.bodies, start_random, [&] {
+        Point<3> middle;
+        for (std::size_t k = 0; k < 3; ++k) middle[k] = start_random.real(0, options.cells[k]);
+        return box(middle, options.body_side, 0.01, start_random);
+      });
+  const Environment<3> environment = trace_environment(*start.grid);
+  const Locator<3> locator(environment.snapshot());
+  Target_recorder recorder(environment.snapshot(), locator, std::move(start));
   Random random(options.seed + 1);
   std::vector<Vector<3>> drifts(options.bodies);
   std::vector<Point<3>> targets;

@@ -8,7 +8,8 @@
 
 namespace cellwalk::test {
 
-Trace_walls::Trace_walls(const Trace& trace) : size_{trace.nx, trace.ny, trace.nz}, solid_(trace.obstacles) {}
+Trace_walls::Trace_walls(const Traced_grid& grid)
+    : size_{grid.cells[0], grid.cells[1], grid.cells[2]}, solid_(grid.solid) {}
 
 bool Trace_walls::is_solid(const std::array<std::int64_t, 3>& cell) const {
   for (std::size_t k = 0; k < 3; ++k)
@@ -72,27 +73,42 @@ std::optional<double> Trace_walls::meet_triangle(const Point<3>& a, const Point<
   return first->convert_to<double>();
 }
 
-std::uint8_t answer(const Trace_walls& walls, const Point<3>& from, const Point<3>& target,
-                    const std::array<Point<3>, trace_edges>& q) {
-  if (walls.meet_segment(from, target)) return 0x71;
-  unsigned bits = 0;
-  for (std::size_t k = 0; k < trace_edges; ++k) {
-    if (walls.meet_segment(target, q[k])) bits |= 2u << k;
-    if (walls.meet_triangle(from, target, q[k])) bits |= 16u << k;
-  }
-  return static_cast<std::uint8_t>(bits);
+bool Recorded_move::stays() const {
+  return std::ranges::any_of(answers, [](unsigned a) { return (a & body_trace_blocked) != 0; });
 }
 
-void for_each_move(const Trace& trace,
-                   const std::function<void(std::size_t, const Point<3>&, const Point<3>&,
-                                            const std::array<Point<3>, trace_edges>&)>& visit) {
-  std::vector<Point<3>> positions = trace.start_positions;
-  for (std::size_t i = 0; i < trace.targets.size(); ++i) {
-    const std::size_t place = i % positions.size(), body = place / 8 * 8, vertex = place % 8;
-    visit(i, positions[place], trace.targets[i],
-          {positions[body + (vertex ^ 1)], positions[body + (vertex ^ 2)], positions[body + (vertex ^ 4)]});
-    if ((trace.answers[i] & 0x0f) == 0) positions[place] = trace.targets[i];
+void for_each_recorded_move(const Body_trace& trace, const std::function<void(const Recorded_move&)>& visit) {
+  std::size_t at = 0;
+  for (std::size_t s = 0; s < trace.steps; ++s)
+    for (std::size_t b = 0, first = 0; b < trace.bodies.size(); first += trace.bodies[b++].vertices) {
+      const Traced_body& body = trace.bodies[b];
+      const auto before = trace.before_step(s).subspan(first, body.vertices);
+      std::vector<Point<3>> positions(before.begin(), before.end());
+      for (std::uint32_t v = 0; v < body.vertices; ++v) {
+        Recorded_move move{s, b, v, positions[v], trace.targets_of_step(s)[first + v], {}, {}};
+        for (std::uint32_t q = 0; q < body.vertices; ++q)
+          if (std::ranges::binary_search(body.edges, std::array{std::min(v, q), std::max(v, q)}))
+            move.neighbours.push_back(positions[q]);
+        move.answers = std::span(trace.answers).subspan(at, 1 + move.neighbours.size());
+        at += move.answers.size();
+        visit(move);
+        if (!move.stays()) positions[v] = move.target;
+      }
+    }
+}
+
+std::vector<std::uint8_t> answers_where_touches_block(const Trace_walls& walls, const Point<3>& from,
+                                                      const Point<3>& target,
+                                                      const std::vector<Point<3>>& neighbours) {
+  const bool is_blocked = walls.meet_segment(from, target);
+  std::vector<std::uint8_t> answers{is_blocked ? body_trace_blocked : std::uint8_t{0}};
+  for (const Point<3>& q : neighbours) {
+    const bool is_blocked_at_end = !is_blocked && walls.meet_segment(target, q);
+    const bool is_swept = is_blocked || walls.meet_triangle(from, target, q);
+    answers.push_back(static_cast<std::uint8_t>(is_blocked_at_end * body_trace_blocked |  //
+                                                is_swept * body_trace_swept));
   }
+  return answers;
 }
 
 }  // namespace cellwalk::test

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The answers of a trace by definition: brute force over the unit squares that are walls near each move, in
-// exact arithmetic. Shares nothing with the library but the record Trace.
+// exact arithmetic. Shares nothing with the library but the record Body_trace.
 #ifndef CELLWALK_TESTS_SIMULATION_TRACE_ORACLE_H
 #define CELLWALK_TESTS_SIMULATION_TRACE_ORACLE_H
 
-#include <cellwalk/internal/records/trace.h>
+#include <cellwalk/internal/records/body_trace.h>
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cellwalk::test {
 
-/// The walls of a trace: the outer boundary of its grid, and the sides of its solid cells.
+/// The walls of a grid: its outer boundary, and the sides of its solid cells.
 class Trace_walls {
  public:
-  explicit Trace_walls(const Trace& trace);
+  explicit Trace_walls(const Traced_grid& grid);
 
   /// Whether the closed segment meets a wall.
   bool meet_segment(const Point<3>& a, const Point<3>& b) const;
@@ -35,15 +36,27 @@ class Trace_walls {
   std::vector<std::uint32_t> solid_;
 };
 
-/// Bit by bit, as the format defines it; q are the neighbours of the vertex that moves.
-std::uint8_t answer(const Trace_walls& walls, const Point<3>& from, const Point<3>& target,
-                    const std::array<Point<3>, trace_edges>& q);
+/// A move of a trace, and what walls answer.
+struct Recorded_move {
+  std::size_t step, body;
+  std::uint32_t vertex;
+  Point<3> from, target;
+  std::vector<Point<3>> neighbours;       ///< where they are then, ascending
+  std::span<const std::uint8_t> answers;  ///< to the vertex, then to its edges
 
-/// Where vertices are when they are moved to their targets by the recorded answers. Calls visit(index, from,
-/// target, q) for each move in order.
-void for_each_move(const Trace& trace,
-                   const std::function<void(std::size_t, const Point<3>&, const Point<3>&,
-                                            const std::array<Point<3>, trace_edges>&)>& visit);
+  bool is_blocked() const { return answers[0] != 0; }
+  bool is_blocked_at_end(std::size_t i) const { return (answers[1 + i] & body_trace_blocked) != 0; }
+  bool is_swept(std::size_t i) const { return (answers[1 + i] & body_trace_swept) != 0; }
+  bool stays() const;
+};
+
+/// Visits all moves in order. Vertices that nothing blocks move to their targets.
+void for_each_recorded_move(const Body_trace& trace, const std::function<void(const Recorded_move&)>& visit);
+
+/// What the answers to a move are where touches block, bit by bit, as the format defines them.
+std::vector<std::uint8_t> answers_where_touches_block(const Trace_walls& walls, const Point<3>& from,
+                                                      const Point<3>& target,
+                                                      const std::vector<Point<3>>& neighbours);
 
 }  // namespace cellwalk::test
 

@@ -9,7 +9,6 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_PEER_H
 
-#include <cellwalk/internal/records/trace.h>
 #include <cellwalk/kernel/point.h>
 
 #include <cstddef>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "common/peers/measured_build.h"
+#include "hexahedra_trace.h"
 #include "world.h"
 
 namespace cellwalk::figure_8 {

@@ -4,7 +4,6 @@
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_WORLD_H
 
 #include <cellwalk/environment/gluing.h>
-#include <cellwalk/internal/records/trace.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
 
@@ -13,6 +12,7 @@
 #include <cstdint>
 
 #include "common/peers/wall_mesh.h"
+#include "hexahedra_trace.h"
 
 namespace cellwalk::figure_8 {
 

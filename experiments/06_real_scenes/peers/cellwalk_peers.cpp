@@ -48,7 +48,8 @@ class Library_replay : public Peer {
       : motion_(motion), environment_(std::move(environment)), locator_(std::move(locator)), sweep_(sweep) {}
 
   void prepare() override {
-    replay_.emplace(environment_->snapshot(), *locator_, motion_.trace, body_trace_options(sweep_));
+    replay_.emplace(environment_->snapshot(), *locator_, motion_.trace,
+                    body_trace_options(sweep_, motion_.trace));
   }
   void place(std::span<const Point<3>>) override { replay_->prepare(); }
   void step(std::span<const Point<3>>, std::span<std::uint8_t>) override { replay_->step(); }

@@ -27,22 +27,14 @@ Body_trace part_of(const Body_trace& trace, const Block& bodies) {
   };
   copy(before, 0, bodies.begin);
   copy(part, bodies.begin, bodies.end);
+  part.touch_blocks = trace.touch_blocks;
+  part.grid = trace.grid;
   part.steps = trace.steps;
   const std::size_t vertex = before.vertices(), answer = before.answers_of_step();
   const std::size_t vertices = part.vertices(), answers = part.answers_of_step();
   part.before = columns_of(trace.before, trace.steps + std::size_t{1}, vertex, vertex + vertices);
   part.targets = columns_of(trace.targets, trace.steps, vertex, vertex + vertices);
   if (!trace.answers.empty()) part.answers = columns_of(trace.answers, trace.steps, answer, answer + answers);
-  return part;
-}
-
-Trace part_of(const Trace& trace, const Block& bodies) {
-  Trace part = trace;
-  const std::size_t begin = bodies.begin * trace_vertices, end = bodies.end * trace_vertices;
-  part.bodies = static_cast<std::uint32_t>(bodies.size());
-  part.start_positions = columns_of(trace.start_positions, 1, begin, end);
-  part.targets = columns_of(trace.targets, trace.steps, begin, end);
-  part.answers = columns_of(trace.answers, trace.steps, begin, end);
   return part;
 }
 

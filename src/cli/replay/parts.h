@@ -7,8 +7,6 @@
 #include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/internal/records/body_trace.h>
-#include <cellwalk/internal/records/trace.h>
-#include <cellwalk/internal/simulation/replay.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -21,19 +19,17 @@ namespace cellwalk::cli {
 /// A trace of some of the bodies only.
 /// \pre the bodies exist
 Body_trace part_of(const Body_trace& trace, const Block& bodies);
-Trace part_of(const Trace& trace, const Block& bodies);
 
 /// Of each round, the time of one of so many moves.
 /// \pre moves > 0
 std::vector<double> per_move(std::vector<double> times, std::uint64_t moves);
 
 /// What the rounds of a replay found. Ranks work at the same time, so the slowest one counts.
-template <class Counts>
 struct Rounds {
   std::vector<double> ns;       ///< of each round that is timed
   std::vector<double> step_us;  ///< of each step, the least of these rounds; empty: not measured
   std::uint64_t mismatches = 0, registered_anew = 0;
-  Counts counts{};  ///< of one round
+  Body_counts counts;  ///< of one round
 
   /// On the first rank: of all ranks; on others, as it was.
   void gather(Ranks& ranks) {
@@ -55,7 +51,7 @@ struct Rounds {
     slower(step_us, bytes.next<std::vector<double>>());
     mismatches += bytes.next<std::uint64_t>();
     registered_anew += bytes.next<std::uint64_t>();
-    counts += bytes.next<Counts>();
+    counts += bytes.next<Body_counts>();
   }
 };
 

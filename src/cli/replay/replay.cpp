@@ -2,12 +2,9 @@
 // cellwalk replay TRACE: answers and times a recorded motion.
 #include "replay.h"
 
-#include <cellwalk/internal/io/body_trace_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 
-#include <algorithm>
 #include <memory>
-#include <utility>
-#include <variant>
 
 #include "cli/common/command.h"
 #include "cli/common/contact_kind_names.h"
@@ -15,25 +12,15 @@
 #include "cli/common/outputs.h"
 
 namespace cellwalk::cli {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 namespace {
 
 constexpr int most_rounds = 100000;
 
-void replay(const Replay_options& options, Ranks& ranks) {
+void run_replay(const Replay_options& options, Ranks& ranks) {
   Outputs outputs({options.trace, options.environment});
   io::Atomic_file* const json = ranks.is_first() ? outputs.file(options.json) : nullptr;
   if (ranks.is_first() && !ranks.is_alone()) outputs.inputs_are_shared();
-  auto read = io::read_any_trace(options.trace);
-  const std::optional<Replay_report> report =
-      std::holds_alternative<Trace>(read) ? replay_grid(std::get<Trace>(std::move(read)), options, ranks)
-                                          : replay_bodies(std::get<Body_trace>(read), options, ranks);
+  const std::optional<Replay_report> report = replay(io::read_trace(options.trace), options, ranks);
   if (!report) return;
   write_json(json, report->json);
   outputs.commit(report->summary);
@@ -50,8 +37,8 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("TRACE");
   command
       ->add_option("--environment", options->environment,
-                   "The environment that the bodies moved in, as check takes it; a trace in a grid of unit "
-                   "cubes holds its own")
+                   "The environment that the bodies moved in, as check takes it; for traces that do not "
+                   "hold a grid of unit cubes")
       ->type_name("ENV");
   add_choice(
       *command, "--sweep", options->sweep,
@@ -68,13 +55,13 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check(whole_number(0, most_rounds))
       ->capture_default_str();
-  command->add_flag(
-      "--shear", options->sheared,
-      "Shear the grid of unit cubes and all motion: cells are no cubes then, and cost the same");
+  command->add_flag("--shear", options->sheared,
+                    "Shear the grid of the trace and all motion: cells are no cubes then, and cost the same");
   add_json(*command, options->json);
   add_examples(*command, {"cellwalk replay motion.trace --environment vessel.ovm",
                           "cellwalk replay grid.trace --sweep three_segments --repeat 21 --json times.json"});
-  command->callback([options, &chosen] { chosen = [options](Ranks& ranks) { replay(*options, ranks); }; });
+  command->callback(
+      [options, &chosen] { chosen = [options](Ranks& ranks) { run_replay(*options, ranks); }; });
 }
 
 }  // namespace cellwalk::cli

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "trace.h"
 
-#include <cellwalk/internal/io/body_trace_file.h>
 #include <cellwalk/internal/io/mapped_file.h>
+#include <cellwalk/internal/io/trace_file.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/kernel/error.h>
 
@@ -41,9 +41,9 @@ std::unique_ptr<Body_trace_recorder> go_on_with_trace(const World<3>& world, Bod
 std::unique_ptr<Body_trace_recorder> go_on_with_trace(const World<2>&, Body_trace) { return nullptr; }
 
 void write_trace(const Body_trace& trace, io::Atomic_file* file, const std::filesystem::path& results) {
-  if (file != nullptr) return io::write_body_trace(*file, trace);
+  if (file != nullptr) return io::write_trace(*file, trace);
   io::Atomic_file inside(results / kept_trace_name);
-  io::write_body_trace(inside, trace);
+  io::write_trace(inside, trace);
   inside.commit();
 }
 

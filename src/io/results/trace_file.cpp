@@ -5,165 +5,254 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "io/files/binary.h"
+#include "trace_parts.h"
 
 namespace cellwalk::io {
 namespace {
 
-constexpr std::size_t trace_header_size = 64, index_size = 4, point_size = 24, answer_size = 1;
-static_assert(sizeof(Point<3>) == point_size && std::endian::native == std::endian::little,
-              "arrays are read and written as they lie in memory");
+/// What a trace begins with; one that has a grid, or in which touches block, begins with the latter.
+constexpr std::string_view plain_magic = "ECCDTRC2", grid_magic = "ECCDTRC3";
 
 /// A replay builds all cells of the grid, however short the file is. Beyond a million cells, which any file
 /// may have, the bytes set the limit: traces of large grids have much motion.
 constexpr std::uint64_t cells_of_any_file = 1'000'000, cells_a_byte = 64;
 
-/// Obstacles are followed by zero bytes up to a multiple of eight.
-std::size_t padding(std::uint64_t obstacles) { return obstacles % 2 == 0 ? 0 : index_size; }
-
-/// True if the grid has cells, and all their indices fit into 32 bits.
-bool is_indexable(const Trace& trace) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 32;
-  if (trace.nx == 0 || trace.ny == 0 || trace.nz == 0) return false;
-  const std::uint64_t layer = std::uint64_t{trace.nx} * trace.ny;
-  return layer <= most && layer * trace.nz <= most;
+/// The next `count` values, if so many bytes are left.
+template <class T>
+std::vector<T> take_values(Binary_reader& in, std::uint64_t count, const char* what) {
+  if (count > in.left() / sizeof(T))
+    in.fail(fmt::format("the file ends within {}: it is cut short, get it whole", what));
+  std::vector<T> values(static_cast<std::size_t>(count));
+  const std::string_view bytes = in.take_bytes(values.size() * sizeof(T));
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
 }
 
-Trace take_header(Binary_reader& in, std::uint32_t& obstacles) {
-  Trace trace;
-  trace.nx = in.take<std::uint32_t>("the header");
-  trace.ny = in.take<std::uint32_t>("the header");
-  trace.nz = in.take<std::uint32_t>("the header");
-  trace.bodies = in.take<std::uint32_t>("the header");
-  trace.steps = in.take<std::uint32_t>("the header");
-  obstacles = in.take<std::uint32_t>("the header");
-  trace.seed = in.take<std::uint64_t>("the header");
-  trace.obstacle_fraction = in.take<double>("the header");
-  trace.body_side = in.take<double>("the header");
-  trace.speed = in.take<double>("the header");
-  return trace;
+Traced_body take_body(Binary_reader& in) {
+  Traced_body body;
+  body.vertices = in.take<std::uint32_t>("the vertices of a body");
+  const auto edges = in.take<std::uint32_t>("the edges of a body");
+  const auto faces = in.take<std::uint32_t>("the faces of a body");
+  body.edges = take_values<std::array<std::uint32_t, 2>>(in, edges, "the edges of a body");
+  body.faces = take_values<std::array<std::uint32_t, 3>>(in, faces, "the faces of a body");
+  return body;
 }
 
-/// Compares the header with the number of bytes. The counts have 32 bits, and steps are compared by division,
-/// so that no sum or product here has more than 64.
-void check_size(const std::string& name, const Trace& trace, std::uint64_t obstacles, std::uint64_t bytes) {
-  const std::uint64_t vertices = std::uint64_t{trace.bodies} * trace_vertices;
-  const std::uint64_t before_steps = index_size * obstacles + padding(obstacles) + vertices * point_size;
-  const std::uint64_t a_step = vertices * (point_size + answer_size);
-  const std::string announced =
-      fmt::format("{} obstacles, {} bodies and {} steps", obstacles, trace.bodies, trace.steps);
-  if (before_steps > bytes || (a_step > 0 && trace.steps > (bytes - before_steps) / a_step))
-    fail(name, fmt::format("announces {}, more than its {} bytes hold: it is cut short, get it whole",
-                           announced, trace_header_size + bytes));
-  if (const std::uint64_t rest = bytes - before_steps - trace.steps * a_step; rest > 0)
-    fail(name, fmt::format("goes on for {} bytes after the {} that it announces: it is damaged, get it anew",
-                           rest, announced));
-}
-
-/// The defect of the values of a trace whose arrays have the right lengths; empty if there is none.
-std::string flaw(const Trace& trace) {
-  if (!is_indexable(trace))
-    return fmt::format(
-        "a grid of {} x {} x {} cells: there must be some, and no more than 32-bit indices name", trace.nx,
-        trace.ny, trace.nz);
-  if (trace.bodies == 0 && trace.steps > 0)
-    return fmt::format("announces {} steps of no bodies: nothing moves in them", trace.steps);
-  for (double x : {trace.obstacle_fraction, trace.body_side, trace.speed})
-    if (!std::isfinite(x)) return "a number of the header is not finite: the trace is damaged";
-  for (std::size_t i = 0; i < trace.obstacles.size(); ++i) {
-    if (trace.obstacles[i] >= trace.cells())
-      return fmt::format("obstacle {} is cell {}, of {}: the trace is damaged", i, trace.obstacles[i],
-                         trace.cells());
-    if (i > 0 && trace.obstacles[i] <= trace.obstacles[i - 1])
-      return fmt::format("obstacle {} is cell {}, after cell {}: obstacles must ascend", i,
-                         trace.obstacles[i], trace.obstacles[i - 1]);
-  }
-  for (std::size_t i = 0; i < trace.start_positions.size(); ++i)
-    if (!is_finite(trace.start_positions[i]))
-      return fmt::format("vertex {} of body {} starts at a coordinate that is not finite", i % trace_vertices,
-                         i / trace_vertices);
-  for (std::size_t i = 0; i < trace.targets.size(); ++i) {
-    const std::size_t body = i / trace_vertices % trace.bodies, step = i / trace_vertices / trace.bodies;
-    if (!is_finite(trace.targets[i]))
-      return fmt::format("the target of vertex {} of body {} in step {} has a coordinate that is not finite",
-                         i % trace_vertices, body, step);
-    if ((trace.answers[i] & ~trace_all_bits) != 0)
-      return fmt::format("the answer to vertex {} of body {} in step {} has an unknown bit: it is {}",
-                         i % trace_vertices, body, step, trace.answers[i]);
+/// What is wrong with the edges of a body; empty if nothing.
+std::string flaw_of_edges(const Traced_body& body) {
+  for (std::size_t e = 0; e < body.edges.size(); ++e) {
+    const auto& [u, v] = body.edges[e];
+    if (u >= v || v >= body.vertices)
+      return fmt::format(
+          "edge {} joins vertices {} and {} of {}: the lower one must come first, and both exist", e, u, v,
+          body.vertices);
+    if (e > 0 && !(body.edges[e - 1] < body.edges[e]))
+      return fmt::format("edge {} is not above the one before: edges must ascend", e);
   }
   return {};
 }
 
-/// The next `count` values.
-/// \pre as many bytes are left
-template <class T>
-std::vector<T> take_array(std::string_view& bytes, std::size_t count) {
-  std::vector<T> values(count);
-  if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
-  bytes.remove_prefix(count * sizeof(T));
-  return values;
+/// What is wrong with the faces of a body whose edges are in order; empty if nothing.
+std::string flaw_of_faces(const Traced_body& body) {
+  std::vector<std::array<std::uint32_t, 3>> sorted = body.faces;
+  for (std::size_t f = 0; f < sorted.size(); ++f) {
+    std::ranges::sort(sorted[f]);
+    const auto& [u, v, w] = sorted[f];
+    for (const std::array<std::uint32_t, 2>& side : {std::array{u, v}, {v, w}, {u, w}})
+      if (!std::ranges::binary_search(body.edges, side))
+        return fmt::format("face {} has a side from vertex {} to vertex {}, which is no edge of the body", f,
+                           side[0], side[1]);
+  }
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+    return fmt::format("two faces have the vertices {}, {} and {}: leave one out", (*twice)[0], (*twice)[1],
+                       (*twice)[2]);
+  return {};
+}
+
+/// True if the grid has cells, and all their indices fit into 32 bits.
+bool is_indexable(const Traced_grid& grid) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 32;
+  const auto& [nx, ny, nz] = grid.cells;
+  if (nx == 0 || ny == 0 || nz == 0) return false;
+  const std::uint64_t layer = std::uint64_t{nx} * ny;
+  return layer <= most && layer * nz <= most;
+}
+
+/// What is wrong with a body; empty if nothing.
+std::string flaw_of(const Traced_body& body) {
+  if (body.vertices == 0) return "it has no vertices";
+  const std::string what = flaw_of_edges(body);
+  return what.empty() ? flaw_of_faces(body) : what;
+}
+
+/// What is wrong with the values of a trace whose arrays have their lengths; empty if nothing.
+std::string flaw_of(const Body_trace& trace) {
+  if (trace.grid)
+    if (std::string what = flaw_of_grid(*trace.grid); !what.empty()) return what;
+  for (std::size_t b = 0; b < trace.bodies.size(); ++b)
+    if (const std::string what = flaw_of(trace.bodies[b]); !what.empty())
+      return fmt::format("body {}: {}", b, what);
+  const std::size_t vertices = trace.vertices();
+  if (vertices == 0 && trace.steps > 0)
+    return fmt::format("announces {} steps of no bodies: nothing moves in them", trace.steps);
+  const auto not_finite = [vertices](const std::vector<Point<3>>& points, const char* what) -> std::string {
+    const auto bad = std::find_if_not(points.begin(), points.end(), is_finite<3>);
+    if (bad == points.end()) return {};
+    const auto i = static_cast<std::size_t>(bad - points.begin());
+    return fmt::format("{} of vertex {} in step {} has a coordinate that is not finite", what, i % vertices,
+                       i / vertices);
+  };
+  if (std::string what = not_finite(trace.before, "the position"); !what.empty()) return what;
+  if (std::string what = not_finite(trace.targets, "the target"); !what.empty()) return what;
+  for (std::size_t i = 0; i < trace.answers.size(); ++i)
+    if ((trace.answers[i] & ~body_trace_bits) != 0)
+      return fmt::format("answer {} has an unknown bit: it is {}", i, trace.answers[i]);
+  return {};
+}
+
+/// How touches count, and the grid, if there is one.
+void take_environment(Binary_reader& in, Body_trace& trace) {
+  const auto touch = in.take<std::uint32_t>("the rule of touches");
+  if (touch > 1) in.fail(fmt::format("the rule of touches is {}: 0 or 1 is expected", touch));
+  trace.touch_blocks = touch == 1;
+  const auto has_grid = in.take<std::uint32_t>("the number that announces a grid");
+  if (has_grid > 1)
+    in.fail(fmt::format("the number that announces a grid is {}: 0 or 1 is expected", has_grid));
+  if (has_grid == 0) return;
+  Traced_grid& grid = trace.grid.emplace();
+  for (std::uint32_t& n : grid.cells) n = in.take<std::uint32_t>("the grid");
+  const auto solid = in.take<std::uint32_t>("the number of obstacles");
+  grid.solid = take_values<std::uint32_t>(in, solid, "the obstacles");
+}
+
+/// Bodies, steps and answers.
+void take_motion(Binary_reader& in, Body_trace& trace) {
+  const auto bodies = in.take<std::uint32_t>("the number of bodies");
+  trace.steps = in.take<std::uint32_t>("the number of steps");
+  // Compared by division: the counts have 32 bits, and their products more than 64.
+  std::uint64_t vertices = 0;
+  for (std::uint32_t b = 0; b < bodies; ++b) {
+    trace.bodies.push_back(take_body(in));
+    vertices += trace.bodies.back().vertices;
+    if (vertices > in.left() / sizeof(Point<3>))
+      in.fail(
+          fmt::format("announces {} vertices of bodies, more than the {} bytes left hold: it is cut short, "
+                      "get it whole",
+                      vertices, in.left()));
+  }
+  if (vertices > 0 && trace.steps > in.left() / (2 * sizeof(Point<3>) * vertices))
+    in.fail(
+        fmt::format("announces {} steps of {} vertices, more than the {} bytes left hold: it is cut short, "
+                    "get it whole",
+                    trace.steps, vertices, in.left()));
+  trace.before = take_values<Point<3>>(in, (std::uint64_t{trace.steps} + 1) * vertices, "the positions");
+  trace.targets = take_values<Point<3>>(in, trace.steps * vertices, "the targets");
+  const auto has_answers = in.take<std::uint8_t>("the byte that announces answers");
+  if (has_answers > 1)
+    in.fail(fmt::format("the byte that announces answers is {}: 0 or 1 is expected", has_answers));
+  if (has_answers == 1) {
+    const std::uint64_t a_step = trace.answers_of_step();
+    if (a_step > 0 && trace.steps > in.left() / a_step)
+      in.fail("the file ends within the answers: it is cut short, get it whole");
+    trace.answers = take_values<std::uint8_t>(in, trace.steps * a_step, "the answers");
+  }
+  if (in.left() > 0)
+    in.fail(
+        fmt::format("goes on for {} bytes after what it announces: it is damaged, get it anew", in.left()));
 }
 
 }  // namespace
 
-Trace parse_trace(const std::string& name, std::string_view bytes) {
-  if (!bytes.starts_with(trace_magic))
-    fail(name,
-         fmt::format("is no trace: it does not begin with {}; name a file of recorded motion", trace_magic));
-  const std::size_t file_size = bytes.size();
-  Binary_reader in(name, bytes.substr(trace_magic.size()), false);
-  std::uint32_t obstacles = 0;
-  Trace trace = take_header(in, obstacles);
-  bytes.remove_prefix(trace_header_size);
-  check_size(name, trace, obstacles, bytes.size());
-  trace.obstacles = take_array<std::uint32_t>(bytes, obstacles);
-  for (char c : take_array<char>(bytes, padding(obstacles)))
-    if (c != 0)
-      fail(name, "the bytes after the obstacles, which fill up to eight, are not zero: it is damaged");
-  trace.start_positions = take_array<Point<3>>(bytes, trace.bodies * trace_vertices);
-  trace.targets = take_array<Point<3>>(bytes, trace.moves());
-  trace.answers = take_array<std::uint8_t>(bytes, trace.moves());
-  if (const std::string what = flaw(trace); !what.empty()) fail(name, what);
-  if (trace.cells() > std::max<std::uint64_t>(cells_of_any_file, cells_a_byte * file_size))
+std::string flaw_of_grid(const Traced_grid& grid) {
+  if (!is_indexable(grid))
+    return fmt::format(
+        "a grid of {} x {} x {} cells: there must be some, and no more than 32-bit indices name",
+        grid.cells[0], grid.cells[1], grid.cells[2]);
+  for (std::size_t i = 0; i < grid.solid.size(); ++i) {
+    if (grid.solid[i] >= grid.cell_count())
+      return fmt::format("obstacle {} is cell {}, of {}: the trace is damaged", i, grid.solid[i],
+                         grid.cell_count());
+    if (i > 0 && grid.solid[i] <= grid.solid[i - 1])
+      return fmt::format("obstacle {} is cell {}, after cell {}: obstacles must ascend", i, grid.solid[i],
+                         grid.solid[i - 1]);
+  }
+  return {};
+}
+
+void check_grid_size(const std::string& name, const Traced_grid& grid, std::uint64_t bytes) {
+  if (grid.cell_count() > std::max(cells_of_any_file, cells_a_byte * bytes))
     fail(name, fmt::format("announces a grid of {} cells in {} bytes, too large for so little motion: it may "
                            "be damaged; get it anew, or record in a smaller grid",
-                           trace.cells(), file_size));
+                           grid.cell_count(), bytes));
+}
+
+Body_trace parse_trace(const std::string& name, std::string_view bytes) {
+  if (bytes.starts_with(hexahedra_magic)) return parse_hexahedra(name, bytes);
+  const bool has_environment = bytes.starts_with(grid_magic);
+  if (!has_environment && !bytes.starts_with(plain_magic))
+    fail(name,
+         fmt::format("is no trace: it begins with none of {}, {} and {}; name a file of recorded motion",
+                     hexahedra_magic, plain_magic, grid_magic));
+  Binary_reader in(name, bytes.substr(plain_magic.size()), false);
+  Body_trace trace;
+  if (has_environment) take_environment(in, trace);
+  take_motion(in, trace);
+  if (const std::string what = flaw_of(trace); !what.empty()) fail(name, what);
+  if (trace.grid) check_grid_size(name, *trace.grid, bytes.size());
   return trace;
 }
 
-Trace read_trace(const std::filesystem::path& path) { return parse_trace(path.string(), load(path)); }
+Body_trace read_trace(const std::filesystem::path& path) { return parse_trace(path.string(), load(path)); }
 
-void write_trace(Atomic_file& file, const Trace& trace) {
+void write_trace(Atomic_file& file, const Body_trace& trace) {
   const auto refuse = [&](const std::string& what) {
     throw Error(Error_code::usage, fmt::format("{}: is not written: {}", file.destination().string(), what));
   };
-  if (trace.obstacles.size() > std::numeric_limits<std::uint32_t>::max() ||
-      trace.start_positions.size() != trace.bodies * trace_vertices ||
-      trace.targets.size() != trace.moves() || trace.answers.size() != trace.moves())
+  constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+  const bool fits =
+      trace.bodies.size() <= most && std::ranges::all_of(trace.bodies, [](const Traced_body& body) {
+        return body.edges.size() <= most && body.faces.size() <= most;
+      });
+  if (!fits || (trace.grid && trace.grid->solid.size() > most) ||
+      trace.before.size() != (trace.steps + std::size_t{1}) * trace.vertices() ||
+      trace.targets.size() != trace.moves() ||
+      (!trace.answers.empty() && trace.answers.size() != trace.steps * trace.answers_of_step()))
     refuse("the trace holds other numbers of positions, targets and answers than its counts say");
-  if (const std::string what = flaw(trace); !what.empty()) refuse(what);
-  file.write(trace_magic);
-  const auto obstacles = static_cast<std::uint32_t>(trace.obstacles.size());
-  for (std::uint32_t n : {trace.nx, trace.ny, trace.nz, trace.bodies, trace.steps, obstacles})
-    file.write(bytes_of(&n, 1));
-  file.write(bytes_of(&trace.seed, 1));
-  for (double x : {trace.obstacle_fraction, trace.body_side, trace.speed}) file.write(bytes_of(&x, 1));
-  file.write(bytes_of(trace.obstacles));
-  file.write(std::string(padding(obstacles), '\0'));
-  file.write(bytes_of(trace.start_positions));
+  if (const std::string what = flaw_of(trace); !what.empty()) refuse(what);
+  const auto write = [&file](std::size_t count) {
+    const auto number = static_cast<std::uint32_t>(count);
+    file.write(bytes_of(&number, 1));
+  };
+  const bool has_environment = trace.touch_blocks || trace.grid;
+  file.write(has_environment ? grid_magic : plain_magic);
+  if (has_environment) {
+    write(trace.touch_blocks);
+    write(trace.grid.has_value());
+  }
+  if (trace.grid) {
+    for (const std::uint32_t n : trace.grid->cells) write(n);
+    write(trace.grid->solid.size());
+    file.write(bytes_of(trace.grid->solid));
+  }
+  write(trace.bodies.size());
+  write(trace.steps);
+  for (const Traced_body& body : trace.bodies) {
+    write(body.vertices);
+    write(body.edges.size());
+    write(body.faces.size());
+    file.write(bytes_of(body.edges));
+    file.write(bytes_of(body.faces));
+  }
+  file.write(bytes_of(trace.before));
   file.write(bytes_of(trace.targets));
+  const std::uint8_t has_answers = !trace.answers.empty();
+  file.write(bytes_of(&has_answers, 1));
   file.write(bytes_of(trace.answers));
-}
-
-void write_trace(const std::filesystem::path& path, const Trace& trace) {
-  Atomic_file file(path);
-  write_trace(file, trace);
-  file.commit();
 }
 
 }  // namespace cellwalk::io

@@ -9,9 +9,10 @@
 
 namespace cellwalk {
 
-Body_options body_trace_options(Sweep sweep) {
+Body_options body_trace_options(Sweep sweep, const Body_trace& trace) {
   Body_options options;
   options.sweep.sweep = sweep;
+  options.sweep.touch = trace.touch_blocks ? Touch::stop : Touch::pass;
   options.rule = Step_rule::reject_at_target;
   options.reports_blocked = true;
   return options;
@@ -54,8 +55,8 @@ Body_replay::Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator,
   if (options.sweep.sweep == Sweep::faces)
     throw Error(Error_code::usage,
                 "faces are not answered in a trace: replay it by three_segments or triangle");
-  for (std::size_t b = 0, first = 0; b < trace.bodies.size(); first += trace.bodies[b++].vertices) {
-    first_vertex_.push_back(first);
+  for (std::size_t b = 0; b < trace.bodies.size(); vertices_ += trace.bodies[b++].vertices) {
+    first_vertex_.push_back(vertices_);
     degrees_.push_back(answerable_degrees(trace.bodies[b], first_body + b));
     bodies_.push_back(registered(b, 0));
   }
@@ -94,10 +95,12 @@ void Body_replay::prepare() {
 }
 
 void Body_replay::step() {
-  const auto targets = trace_->targets_of_step(steps_done_);
+  const Point<3>* targets = trace_->targets.data() + steps_done_ * vertices_;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const std::uint32_t vertices = trace_->bodies[b].vertices;
     reports_[b].clear();
-    bodies_[b].step(part(targets, b), options_, reports_[b], counts_);
+    bodies_[b].step({targets, vertices}, options_, reports_[b], counts_);
+    targets += vertices;
   }
   ++steps_done_;
 }

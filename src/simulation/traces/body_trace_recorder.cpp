@@ -37,7 +37,7 @@ void Body_trace_recorder::note_positions() {
 }
 
 void Body_trace_recorder::record_step() {
-  const Body_options options = body_trace_options(Sweep::triangle);
+  const Body_options options = body_trace_options(Sweep::triangle, trace_);
   for (std::size_t b = 0; b < before_.size(); ++b) {
     const Moving_body<3>& moving = world_.bodies()[b];
     const std::span<const Point<3>> targets = moving.targets();

@@ -6,16 +6,16 @@
 
 namespace cellwalk {
 
-Environment<3> trace_environment(const Trace& trace, const Lattice_map<3>& map) {
+Environment<3> trace_environment(const Traced_grid& grid, const Lattice_map<3>& map) {
   Grid_options<3> options;
-  options.cells = {trace.nx, trace.ny, trace.nz};
-  options.solid_cells = trace.obstacles;
+  options.cells = grid.cells;
+  options.solid_cells = grid.solid;
   options.map = map;
   return Environment<3>::build(hex_grid(options), {.split = false, .keep_map = false});
 }
 
-Trace mapped(Trace trace, const Lattice_map<3>& map) {
-  for (Point<3>& x : trace.start_positions) x = map(x);
+Body_trace mapped(Body_trace trace, const Lattice_map<3>& map) {
+  for (Point<3>& x : trace.before) x = map(x);
   for (Point<3>& x : trace.targets) x = map(x);
   return trace;
 }

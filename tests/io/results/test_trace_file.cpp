@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/gzip.h>
 #include <cellwalk/internal/io/trace_file.h>
 
 #include <gtest/gtest.h>
@@ -14,185 +15,301 @@ namespace cellwalk::io {
 namespace {
 
 /// Bytes as the format has them, put down one by one: nothing of the writer is used.
-class Bytes {
+class Little_endian {
  public:
-  Bytes& count(std::uint64_t value, int size = 4) {
-    for (int i = 0; i < size; ++i) text_.push_back(static_cast<char>(value >> 8 * i & 0xff));
+  Little_endian& counts(std::initializer_list<std::uint64_t> values, int size = 4) {
+    for (const std::uint64_t value : values)
+      for (int i = 0; i < size; ++i) text_.push_back(static_cast<char>(value >> 8 * i & 0xff));
     return *this;
   }
-  Bytes& number(double value) { return count(std::bit_cast<std::uint64_t>(value), 8); }
+  Little_endian& number(double value) { return counts({std::bit_cast<std::uint64_t>(value)}, 8); }
   const std::string& text() const { return text_; }
 
  private:
-  std::string text_ = "ECCDTRC1";
+  std::string text_;
 };
 
-// Where the parts of `sample_trace()` lie.
-constexpr std::size_t nx_at = 8, bodies_at = 20, steps_at = 24, obstacles_at = 28, fraction_at = 40,
-                      speed_at = 56, indices_at = 64, padding_at = 76, starts_at = 80,
-                      targets_at = starts_at + 192, answers_at = targets_at + 2 * 192,
-                      size = answers_at + 2 * 8;
+// Where the parts of `sample_body_trace()` lie.
+constexpr std::size_t step_count_at = 12, vertex_count_at = 16, edges_of_first_at = 28,
+                      faces_of_first_at = 60, vertices_of_second_at = 84, edges_of_second_at = 96,
+                      before_at = 104, body_targets_at = before_at + 3 * 6 * 24,
+                      has_answers_at = body_targets_at + 2 * 6 * 24, body_answers_at = has_answers_at + 1,
+                      body_trace_size = body_answers_at + 2 * 16;
 
-/// A grid of 3 x 4 x 5 cells of which 3 are solid, one body, two steps.
-std::string sample_trace() {
-  Bytes bytes;
-  bytes.count(3).count(4).count(5).count(1).count(2).count(3).count(0x0123456789abcdef, 8);
-  bytes.number(0.05).number(0.25).number(1e-2);
-  bytes.count(0).count(7).count(59).count(0);
-  for (int i = 0; i < 3 * 8; ++i) bytes.number(1 + i / 16.0).number(-i).number(i == 3 ? -0.0 : 5e-324 * i);
-  for (int i = 0; i < 2 * 8; ++i) bytes.count(i == 9 ? 0x71 : i == 12 ? 0x2a : 0, 1);
-  return bytes.text();
+/// Two bodies in two steps: four vertices, four edges and two faces; two vertices and an edge.
+std::string sample_body_trace() {
+  Little_endian bytes;
+  bytes.counts({2, 2});
+  bytes.counts({4, 4, 2}).counts({0, 1, 0, 2, 0, 3, 1, 2}).counts({2, 0, 1}).counts({0, 1, 2});
+  bytes.counts({2, 1, 0}).counts({0, 1});
+  for (int i = 0; i < (3 + 2) * 6; ++i)
+    bytes.number(1 + i / 16.0).number(-i).number(i == 3 ? -0.0 : 5e-324 * i);
+  bytes.counts({1}, 1);
+  for (int i = 0; i < 2 * (4 + 8 + 2 + 2); ++i)
+    bytes.counts({i == 9 ? 3u : i == 20 ? 2u : i == 31 ? 1u : 0u}, 1);
+  return "ECCDTRC2" + bytes.text();
 }
 
-std::string with(std::string bytes, std::size_t at, const std::string& part) {
+/// The same with the last face left out: the sample has two with the same vertices.
+std::string good_body_trace() {
+  std::string bytes = sample_body_trace();
+  bytes[vertex_count_at + 8] = 1;
+  return bytes.erase(faces_of_first_at + 12, 12);
+}
+
+std::string changed(std::string bytes, std::size_t at, const std::string& part) {
   return bytes.replace(at, part.size(), part);
 }
-std::string count(std::uint32_t value) { return Bytes().count(value).text().substr(8); }
-std::string number(double value) { return Bytes().number(value).text().substr(8); }
+std::string counts(std::initializer_list<std::uint64_t> values) {
+  return Little_endian().counts(values).text();
+}
+std::string double_bytes(double value) { return Little_endian().number(value).text(); }
+
+void expect_same(const Body_trace& a, const Body_trace& b) {
+  ASSERT_EQ(a.bodies.size(), b.bodies.size());
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    EXPECT_EQ(a.bodies[i].vertices, b.bodies[i].vertices);
+    EXPECT_EQ(a.bodies[i].edges, b.bodies[i].edges);
+    EXPECT_EQ(a.bodies[i].faces, b.bodies[i].faces);
+  }
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.before, b.before);
+  EXPECT_EQ(a.targets, b.targets);
+  EXPECT_EQ(a.answers, b.answers);
+}
+
+void write(const std::filesystem::path& path, const Body_trace& trace) {
+  Atomic_file file(path);
+  write_trace(file, trace);
+  file.commit();
+}
 
 TEST(TraceFile, ReadsWhatIsThere) {
-  ASSERT_EQ(sample_trace().size(), size);
-  const Trace trace = parse_trace("t.bin", sample_trace());
-  EXPECT_EQ(trace.nx, 3u);
-  EXPECT_EQ(trace.ny, 4u);
-  EXPECT_EQ(trace.nz, 5u);
-  EXPECT_EQ(trace.cells(), 60u);
-  EXPECT_EQ(trace.bodies, 1u);
+  ASSERT_EQ(sample_body_trace().size(), body_trace_size);
+  const Body_trace trace = parse_trace("t.bin", good_body_trace());
+  ASSERT_EQ(trace.bodies.size(), 2u);
+  EXPECT_EQ(trace.bodies[0].vertices, 4u);
+  EXPECT_EQ(trace.bodies[0].edges,
+            (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {0, 2}, {0, 3}, {1, 2}}));
+  EXPECT_EQ(trace.bodies[0].faces, (std::vector<std::array<std::uint32_t, 3>>{{2, 0, 1}}));
+  EXPECT_EQ(degrees(trace.bodies[0]), (std::vector<std::uint32_t>{3, 2, 2, 1}));
+  EXPECT_EQ(trace.bodies[1].vertices, 2u);
+  EXPECT_EQ(trace.bodies[1].edges, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}}));
+  EXPECT_TRUE(trace.bodies[1].faces.empty());
   EXPECT_EQ(trace.steps, 2u);
-  EXPECT_EQ(trace.moves(), 16u);
-  EXPECT_EQ(trace.seed, 0x0123456789abcdefu);
-  EXPECT_EQ(trace.obstacle_fraction, 0.05);
-  EXPECT_EQ(trace.body_side, 0.25);
-  EXPECT_EQ(trace.speed, 1e-2);
-  EXPECT_EQ(trace.obstacles, (std::vector<std::uint32_t>{0, 7, 59}));
-  ASSERT_EQ(trace.start_positions.size(), 8u);
-  ASSERT_EQ(trace.targets.size(), 16u);
-  EXPECT_EQ(trace.start(0, 2), (Point<3>{1.125, -2, 1e-323}));
-  EXPECT_TRUE(std::signbit(trace.start(0, 3)[2]));
-  EXPECT_EQ(trace.target(0, 0, 0), (Point<3>{1.5, -8, 8 * 5e-324}));
-  EXPECT_EQ(trace.target(1, 0, 4), (Point<3>{2.25, -20, 20 * 5e-324}));
-  EXPECT_EQ(trace.answer(0, 0, 1), 0);
-  EXPECT_EQ(trace.answer(1, 0, 1), 0x71);
-  EXPECT_EQ(trace.answer(1, 0, 4), 0x2a);
+  EXPECT_EQ(trace.vertices(), 6u);
+  EXPECT_EQ(trace.moves(), 12u);
+  EXPECT_EQ(trace.answers_of_step(), 16u);
+  ASSERT_EQ(trace.before.size(), 18u);
+  ASSERT_EQ(trace.targets.size(), 12u);
+  EXPECT_EQ(trace.before_step(0)[2], (Point<3>{1.125, -2, 1e-323}));
+  EXPECT_TRUE(std::signbit(trace.before_step(0)[3][2]));
+  EXPECT_EQ(trace.before_step(2)[1], (Point<3>{1 + 13 / 16.0, -13, 13 * 5e-324}));
+  EXPECT_EQ(trace.targets_of_step(1)[5], (Point<3>{1 + 29 / 16.0, -29, 29 * 5e-324}));
+  ASSERT_EQ(trace.answers.size(), 32u);
+  EXPECT_EQ(trace.answers[9], body_trace_bits);
+  EXPECT_EQ(trace.answers[20], body_trace_swept);
+  EXPECT_EQ(trace.answers[31], body_trace_blocked);
 }
 
 TEST(TraceFile, IsWrittenAsItWasRead) {
   const Folder folder;
   const auto path = folder / "out.bin";
-  write_trace(path, parse_trace("t.bin", sample_trace()));
-  EXPECT_EQ(content_of(path), sample_trace());
-  Trace trace = read_trace(path);
-  trace.obstacles.pop_back();  // an even number of them needs no padding
-  trace.steps = 0, trace.targets.clear(), trace.answers.clear();
-  write_trace(path, trace);
-  EXPECT_EQ(content_of(path), with(sample_trace(), steps_at, count(0) + count(2)).substr(0, indices_at + 8) +
-                                  sample_trace().substr(starts_at, 192));
-  trace = read_trace(path);
-  EXPECT_EQ(trace.moves(), 0u);
-  trace.bodies = 0, trace.start_positions.clear(), trace.obstacles.clear();
-  write_trace(path, trace);
-  EXPECT_EQ(read_trace(path).cells(), 60u);
+  Body_trace trace = parse_trace("t.bin", good_body_trace());
+  write(path, trace);
+  EXPECT_EQ(content_of(path), good_body_trace());
+  expect_same(read_trace(path), trace);
+  trace.answers.clear();
+  write(path, trace);
+  const std::size_t announced_at = has_answers_at - 12;
+  EXPECT_EQ(content_of(path), good_body_trace().substr(0, announced_at) + '\0');
+  expect_same(read_trace(path), trace);
+  trace.steps = 0, trace.before.resize(6), trace.targets.clear();
+  write(path, trace);
+  expect_same(read_trace(path), trace);
+  EXPECT_EQ(read_trace(path).moves(), 0u);
+  write(path, {});
+  EXPECT_EQ(content_of(path), "ECCDTRC2" + std::string(9, '\0'));
+  EXPECT_EQ(read_trace(path).vertices(), 0u);
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
-TEST(TraceFile, RefusesGridsThatAreTooLargeForItsBytes) {
-  const auto with_layers = [](std::uint32_t nx) {
-    return with(sample_trace(), nx_at, count(nx));
-  };  // of 20 cells
-  EXPECT_EQ(parse_trace("t.bin", with_layers(50'000)).cells(), 1'000'000u);
-  EXPECT_EQ(refusal([&] { parse_trace("t.bin", with_layers(50'001)); }),
-            "t.bin: announces a grid of 1000020 cells in 672 bytes, too large for so little motion: it may "
-            "be damaged; get it anew, "
-            "or record in a smaller grid");
-  EXPECT_EQ(refusal([&] { parse_trace("t.bin", with_layers(200'000'000)); }),
-            "t.bin: announces a grid of 4000000000 cells in 672 bytes, too large for so little motion: it "
-            "may be damaged; get it anew, "
-            "or record in a smaller grid");
+TEST(TraceFile, MayBeCompressed) {
+  const Folder folder;
+  expect_same(read_trace(folder.write("t.bin", gzip(good_body_trace()))),
+              parse_trace("t.bin", good_body_trace()));
 }
 
-TEST(TraceFile, RefusesStepsInWhichNothingMoves) {
-  const std::string none = with(with(sample_trace(), bodies_at, count(0)), steps_at, count(4'294'967'295));
-  EXPECT_EQ(refusal([&] { parse_trace("t.bin", none.substr(0, starts_at)); }),
-            "t.bin: announces 4294967295 steps of no bodies: nothing moves in them");
+/// The same, in a grid of 3 x 4 x 5 cells of which 2 are solid.
+std::string trace_in_a_grid(std::uint32_t touch = 1) {
+  return "ECCDTRC3" + counts({touch, 1, 3, 4, 5, 2, 7, 59}) + good_body_trace().substr(8);
+}
+
+TEST(TraceFile, HoldsTheGridAndTheRuleOfTouches) {
+  const Folder folder;
+  const auto path = folder / "out.bin";
+  Body_trace trace = parse_trace("t.bin", trace_in_a_grid());
+  EXPECT_TRUE(trace.touch_blocks);
+  ASSERT_TRUE(trace.grid);
+  EXPECT_EQ(trace.grid->cells, (std::array<std::uint32_t, 3>{3, 4, 5}));
+  EXPECT_EQ(trace.grid->solid, (std::vector<std::uint32_t>{7, 59}));
+  expect_same(trace, parse_trace("t.bin", good_body_trace()));
+  write(path, trace);
+  EXPECT_EQ(content_of(path), trace_in_a_grid());
+  trace.touch_blocks = false;
+  write(path, trace);
+  EXPECT_EQ(content_of(path), trace_in_a_grid(0));
+  EXPECT_FALSE(read_trace(path).touch_blocks);
+  trace.touch_blocks = true;
+  trace.grid.reset();
+  write(path, trace);
+  EXPECT_EQ(content_of(path), "ECCDTRC3" + counts({1, 0}) + good_body_trace().substr(8));
+  EXPECT_FALSE(read_trace(path).grid);
+}
+
+TEST(TraceFile, RefusesDamagedGrids) {
+  const std::string good = trace_in_a_grid();
+  const auto grid = [&](std::uint64_t nx, std::uint64_t ny, std::uint64_t nz) {
+    return changed(good, 16, counts({nx, ny, nz}));
+  };
+  const struct {
+    std::string bytes, message;
+  } cases[] = {
+      {good.substr(0, 10), "the file ends where the rule of touches should be: it is cut short"},
+      {changed(good, 8, counts({2})), "the rule of touches is 2: 0 or 1 is expected"},
+      {good.substr(0, 14), "the file ends where the number that announces a grid should be: it is cut short"},
+      {changed(good, 12, counts({3})), "the number that announces a grid is 3: 0 or 1 is expected"},
+      {good.substr(0, 24), "the file ends where the grid should be: it is cut short"},
+      {good.substr(0, 28), "the file ends where the number of obstacles should be: it is cut short"},
+      {good.substr(0, 36), "the file ends within the obstacles: it is cut short, get it whole"},
+      {changed(good, 28, counts({0xffffffff})),
+       "the file ends within the obstacles: it is cut short, get it whole"},
+      {grid(3, 0, 5), "a grid of 3 x 0 x 5 cells: there must be some, and no more than 32-bit indices name"},
+      {grid(3, 4, 4), "obstacle 1 is cell 59, of 48: the trace is damaged"},
+      {changed(good, 32, counts({59})), "obstacle 1 is cell 59, after cell 59: obstacles must ascend"},
+      {grid(1000, 1001, 1), "announces a grid of 1001000 cells in " + std::to_string(good.size()) +
+                                " bytes, too large for so little motion: it may be damaged; get it anew, or "
+                                "record in a smaller grid"}};
+  for (const auto& c : cases)
+    EXPECT_EQ(refusal([&] { parse_trace("t.bin", c.bytes); }), "t.bin: " + c.message);
+  EXPECT_EQ(parse_trace("t.bin", grid(1000, 1000, 1)).grid->cell_count(), 1'000'000u);
+}
+
+TEST(TraceFile, IsToldByWhatItBeginsWith) {
+  for (const char* other : {"", "ECCDTRC", "ECCDTRC4", "hello"})
+    EXPECT_EQ(refusal([&] { parse_trace("t.bin", other); }),
+              "t.bin: is no trace: it begins with none of ECCDTRC1, ECCDTRC2 and ECCDTRC3; name a file of "
+              "recorded motion");
 }
 
 TEST(TraceFile, RefusesDamage) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const std::string good = good_body_trace(), twice = sample_body_trace();
+  const std::uint32_t most = 0xffffffff;
   const struct {
     std::string bytes, message;
   } cases[] = {
-      {"", "is no trace: it does not begin with ECCDTRC1; name a file of recorded motion"},
-      {with(sample_trace(), 7, "2"),
-       "is no trace: it does not begin with ECCDTRC1; name a file of recorded motion"},
-      {sample_trace().substr(0, 63), "the file ends where the header should be: it is cut short"},
-      {sample_trace().substr(0, size - 1),
-       "announces 3 obstacles, 1 bodies and 2 steps, more than its 671 bytes hold: it is cut short, get it "
+      {good.substr(0, 10), "the file ends where the number of bodies should be: it is cut short"},
+      {good.substr(0, 15), "the file ends where the number of steps should be: it is cut short"},
+      {good.substr(0, 16), "the file ends where the vertices of a body should be: it is cut short"},
+      {good.substr(0, 20), "the file ends where the edges of a body should be: it is cut short"},
+      {good.substr(0, 24), "the file ends where the faces of a body should be: it is cut short"},
+      {good.substr(0, edges_of_first_at + 31),
+       "the file ends within the edges of a body: it is cut short, get it whole"},
+      {changed(good, vertex_count_at, counts({4, most})),
+       "the file ends within the edges of a body: it is cut short, get it whole"},
+      {good.substr(0, faces_of_first_at + 11),
+       "the file ends within the faces of a body: it is cut short, get it whole"},
+      {changed(good, vertex_count_at, counts({4, 4, most})),
+       "the file ends within the faces of a body: it is cut short, get it whole"},
+      {changed(good, vertex_count_at, counts({most})),
+       "announces 4294967295 vertices of bodies, more than the 773 bytes left hold: it is cut short, get it "
        "whole"},
-      {sample_trace().substr(0, indices_at + 2),
-       "announces 3 obstacles, 1 bodies and 2 steps, more than its 66 bytes hold: it is cut short, get it "
+      // The vertices of this body fit, those of both do not.
+      {changed(good, vertices_of_second_at - 12, counts({28})),
+       "announces 32 vertices of bodies, more than the 753 bytes left hold: it is cut short, get it whole"},
+      {changed(good, step_count_at, counts({most})),
+       "announces 4294967295 steps of 6 vertices, more than the 753 bytes left hold: it is cut short, get it "
        "whole"},
-      {sample_trace() + "x",
-       "goes on for 1 bytes after the 3 obstacles, 1 bodies and 2 steps that it announces: it is damaged, "
-       "get "
-       "it anew"},
-      {with(sample_trace(), obstacles_at, count(0xffffffff)),
-       "announces 4294967295 obstacles, 1 bodies and 2 steps, more than its 672 bytes hold: it is cut short, "
-       "get "
-       "it whole"},
-      {with(sample_trace(), bodies_at, count(0xffffffff) + count(0xffffffff)),
-       "announces 3 obstacles, 4294967295 bodies and 4294967295 steps, more than its 672 bytes hold: it is "
-       "cut "
-       "short, get it whole"},
-      // 2^29 bodies and 2^27 steps: the number of bytes, 200 x 2^56, does not fit 64 bits.
-      {with(sample_trace(), bodies_at, count(1u << 29) + count(1u << 27)),
-       "announces 3 obstacles, 536870912 bodies and 134217728 steps, more than its 672 bytes hold: it is cut "
-       "short, get it whole"},
-      {with(sample_trace(), nx_at, count(0)),
-       "a grid of 0 x 4 x 5 cells: there must be some, and no more than 32-bit indices name"},
-      {with(sample_trace(), nx_at, count(1u << 16) + count(1u << 16) + count(2)),
-       "a grid of 65536 x 65536 x 2 cells: there must be some, and no more than 32-bit indices name"},
-      {with(sample_trace(), nx_at, count(0xffffffff) + count(0xffffffff) + count(0xffffffff)),
-       "a grid of 4294967295 x 4294967295 x 4294967295 cells: there must be some, and no more than 32-bit "
-       "indices name"},
-      {with(sample_trace(), fraction_at, number(nan)),
-       "a number of the header is not finite: the trace is damaged"},
-      {with(sample_trace(), speed_at, number(inf)),
-       "a number of the header is not finite: the trace is damaged"},
-      {with(sample_trace(), indices_at + 8, count(60)), "obstacle 2 is cell 60, of 60: the trace is damaged"},
-      {with(sample_trace(), indices_at + 4, count(0)),
-       "obstacle 1 is cell 0, after cell 0: obstacles must ascend"},
-      {with(sample_trace(), indices_at + 8, count(6)),
-       "obstacle 2 is cell 6, after cell 7: obstacles must ascend"},
-      {with(sample_trace(), padding_at + 3, "\1"),
-       "the bytes after the obstacles, which fill up to eight, are not zero: it is damaged"},
-      {with(sample_trace(), starts_at + 3 * 24 + 8, number(nan)),
-       "vertex 3 of body 0 starts at a coordinate that is not finite"},
-      {with(sample_trace(), targets_at + (8 + 5) * 24, number(-inf)),
-       "the target of vertex 5 of body 0 in step 1 has a coordinate that is not finite"},
-      {with(sample_trace(), answers_at + 2, "\x80"),
-       "the answer to vertex 2 of body 0 in step 0 has an unknown bit: it is 128"}};
+      {changed(good, 8, counts({3})),
+       "the file ends within the edges of a body: it is cut short, get it whole"},
+      {changed(good, step_count_at, counts({3})),
+       "announces 3 steps of 6 vertices, more than the 753 bytes left hold: it is cut short, get it whole"},
+      {good.substr(0, before_at - 12 + 600),
+       "the file ends within the targets: it is cut short, get it whole"},
+      {good.substr(0, has_answers_at - 12),
+       "the file ends where the byte that announces answers should be: it is cut short"},
+      {changed(good, has_answers_at - 12, "\2"), "the byte that announces answers is 2: 0 or 1 is expected"},
+      {good.substr(0, good.size() - 1), "the file ends within the answers: it is cut short, get it whole"},
+      {good + "xy", "goes on for 2 bytes after what it announces: it is damaged, get it anew"},
+      {changed(good, has_answers_at - 12, std::string(1, '\0')),
+       "goes on for 32 bytes after what it announces: it is damaged, get it anew"},
+      {changed(good, edges_of_first_at, counts({1, 0})),
+       "body 0: edge 0 joins vertices 1 and 0 of 4: the lower one must come first, and both exist"},
+      {changed(good, edges_of_first_at, counts({0, 0})),
+       "body 0: edge 0 joins vertices 0 and 0 of 4: the lower one must come first, and both exist"},
+      {changed(good, edges_of_first_at + 24, counts({1, 4})),
+       "body 0: edge 3 joins vertices 1 and 4 of 4: the lower one must come first, and both exist"},
+      {changed(good, edges_of_second_at - 12, counts({0, most})),
+       "body 1: edge 0 joins vertices 0 and 4294967295 of 2: the lower one must come first, and both exist"},
+      {changed(good, edges_of_first_at + 8, counts({0, 1})),
+       "body 0: edge 1 is not above the one before: edges must ascend"},
+      {changed(good, edges_of_first_at + 16, counts({0, 1})),
+       "body 0: edge 2 is not above the one before: edges must ascend"},
+      {changed(good, faces_of_first_at, counts({1, 3, 2})),
+       "body 0: face 0 has a side from vertex 2 to vertex 3, which is no edge of the body"},
+      {changed(good, faces_of_first_at, counts({1, 0, 1})),
+       "body 0: face 0 has a side from vertex 1 to vertex 1, which is no edge of the body"},
+      {changed(good, faces_of_first_at, counts({0, most, 1})),
+       "body 0: face 0 has a side from vertex 1 to vertex 4294967295, which is no edge of the body"},
+      {twice, "body 0: two faces have the vertices 0, 1 and 2: leave one out"},
+      {"ECCDTRC2" + counts({1, 0, 0, 0, 0}) + '\0', "body 0: it has no vertices"},
+      {changed(good, before_at - 12 + (6 + 4) * 24 + 8, double_bytes(nan)),
+       "the position of vertex 4 in step 1 has a coordinate that is not finite"},
+      {changed(good, body_targets_at - 12 + 24, double_bytes(-inf)),
+       "the target of vertex 1 in step 0 has a coordinate that is not finite"},
+      {changed(good, body_answers_at - 12 + 17, "\4"), "answer 17 has an unknown bit: it is 4"}};
   for (const auto& c : cases)
     EXPECT_EQ(refusal([&] { parse_trace("t.bin", c.bytes); }), "t.bin: " + c.message);
+}
+
+/// Bodies whose numbers of vertices add up to more than 64 bits take, times their bytes, and come out small.
+TEST(TraceFile, CountsDoNotWrapAround) {
+  Little_endian bytes;
+  constexpr std::uint32_t bodies = 1 << 16;
+  bytes.counts({bodies, 0xffffffff});
+  for (std::uint32_t b = 0; b < bodies; ++b) bytes.counts({0xffffffff, 0, 0});
+  const std::string message = refusal([&] { parse_trace("t.bin", "ECCDTRC2" + bytes.text()); });
+  EXPECT_TRUE(message.starts_with("t.bin: announces 4294967295 vertices of bodies")) << message;
 }
 
 TEST(TraceFile, RefusesToWriteWhatItWouldNotRead) {
   const Folder folder;
   const auto path = folder / "out.bin";
-  const Trace good = parse_trace("t.bin", sample_trace());
+  const Body_trace good = parse_trace("t.bin", good_body_trace());
   const auto message_of = [&](auto change) {
-    Trace trace = good;
+    Body_trace trace = good;
     change(trace);
-    const std::string message = refusal([&] { write_trace(path, trace); }, Error_code::usage);
+    const std::string message = refusal([&] { write(path, trace); }, Error_code::usage);
     EXPECT_TRUE(message.starts_with(path.string() + ": is not written: ")) << message;
     return message.substr(path.string().size() + 18);
   };
   const std::string lengths =
       "the trace holds other numbers of positions, targets and answers than its counts say";
-  EXPECT_EQ(message_of([](Trace& t) { t.steps = 3; }), lengths);
-  EXPECT_EQ(message_of([](Trace& t) { t.start_positions.pop_back(); }), lengths);
-  EXPECT_EQ(message_of([](Trace& t) { t.answers.pop_back(); }), lengths);
-  EXPECT_EQ(message_of([](Trace& t) { t.obstacles.push_back(3); }),
-            "obstacle 3 is cell 3, after cell 59: obstacles must ascend");
+  EXPECT_EQ(message_of([](Body_trace& t) { t.steps = 3; }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.before.pop_back(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.targets.pop_back(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.answers.pop_back(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) { t.bodies[1].edges.clear(); }), lengths);
+  EXPECT_EQ(message_of([](Body_trace& t) {
+              t.bodies[0].faces.push_back({0, 1, 3});
+            }),
+            "body 0: face 1 has a side from vertex 1 to vertex 3, which is no edge of the body");
+  EXPECT_EQ(message_of([](Body_trace& t) { t.answers[3] = 9; }), "answer 3 has an unknown bit: it is 9");
+  EXPECT_EQ(message_of([](Body_trace& t) {
+              t.grid = {{1, 1, 1}, {0, 0}};
+            }),
+            "obstacle 1 is cell 0, after cell 0: obstacles must ascend");
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
@@ -201,10 +318,11 @@ TEST(TraceFile, DamagedAtRandom) {
   std::mt19937 random(7);
   std::size_t read = 0, refused = 0;
   std::set<std::string> reasons;
+  const std::string good = good_body_trace();
   for (int i = 0; i < 5000; ++i) {
-    std::string bytes = sample_trace();
+    std::string bytes = good;
     for (auto n = 1 + random() % 3; n > 0; --n)
-      bytes[8 + random() % (i % 2 == 0 ? padding_at - 8 : size - 8)] = static_cast<char>(random());
+      bytes[8 + random() % (i % 2 == 0 ? before_at - 20 : good.size() - 8)] = static_cast<char>(random());
     if (i % 5 == 0) bytes.resize(random() % bytes.size());
     try {
       parse_trace("t.bin", bytes);

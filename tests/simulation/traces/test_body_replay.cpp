@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <iostream>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "simulation/recorded_motions.h"
+#include "simulation/replayed.h"
 #include "simulation/trace_oracle.h"
 
 namespace cellwalk {
@@ -32,15 +31,7 @@ std::uint64_t count_answers(const Body_trace& trace, std::uint8_t bits) {
 
 std::uint64_t mismatches_of(const Snapshot<3>& snapshot, const Body_trace& trace, const Body_options& options,
                             bool validates = false) {
-  const Locator<3> locator(snapshot);
-  Body_replay replay(snapshot, locator, trace, options);
-  while (replay.steps_done() < trace.steps) {
-    replay.prepare();
-    replay.step();
-    replay.note_answers();
-    if (validates) replay.validate();
-  }
-  return count_mismatches(trace, replay.answers(), options.sweep.sweep);
+  return test::replayed(snapshot, trace, options, validates).mismatches;
 }
 
 TEST(BodyReplay, GivesTheRecordedAnswers) {
@@ -50,10 +41,10 @@ TEST(BodyReplay, GivesTheRecordedAnswers) {
     EXPECT_GT(count_answers(trace, body_trace_blocked), 80u);
     EXPECT_GT(count_answers(trace, body_trace_swept), 100u);
     for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
-      EXPECT_EQ(mismatches_of(motion->snapshot, trace, body_trace_options(sweep), true), 0u);
+      EXPECT_EQ(mismatches_of(motion->snapshot, trace, body_trace_options(sweep, trace), true), 0u);
       for (const bool clearance : {true, false})
         for (const bool certificates : {true, false}) {
-          Body_options options = body_trace_options(sweep);
+          Body_options options = body_trace_options(sweep, trace);
           options.clearance = clearance;
           options.sweep.certificates = certificates;
           EXPECT_EQ(mismatches_of(motion->snapshot, trace, options), 0u);
@@ -87,33 +78,6 @@ TEST(BodyReplay, RecordingChangesNothing) {
   EXPECT_TRUE(stand_as_recorded(trace.steps)) << "where they are after the last step";
 }
 
-/// Calls visit(answers to the vertex and its edges, its neighbours, from, target) for each move, in order.
-template <class Visit>
-void for_each_recorded_move(const Body_trace& trace, const Visit& visit) {
-  std::size_t at = 0;
-  for (std::uint32_t s = 0; s < trace.steps; ++s) {
-    std::size_t first = 0;
-    for (const Traced_body& body : trace.bodies) {
-      const auto before = trace.before_step(s).subspan(first, body.vertices);
-      std::vector<Point<3>> positions(before.begin(), before.end());
-      for (std::uint32_t v = 0; v < body.vertices; ++v) {
-        std::vector<Point<3>> neighbours;
-        for (std::uint32_t q = 0; q < body.vertices; ++q)
-          if (std::ranges::binary_search(body.edges, std::array{std::min(v, q), std::max(v, q)}))
-            neighbours.push_back(positions[q]);
-        const auto answers = std::span(trace.answers).subspan(at, 1 + neighbours.size());
-        const Point<3>& target = trace.targets_of_step(s)[first + v];
-        visit(answers, neighbours, positions[v], target);
-        at += answers.size();
-        if (std::ranges::none_of(answers, [](unsigned a) { return (a & body_trace_blocked) != 0; }))
-          positions[v] = target;
-      }
-      first += body.vertices;
-    }
-  }
-  EXPECT_EQ(at, trace.answers.size());
-}
-
 struct Judged_answers {
   int asked = 0, blocked = 0;
   int wrong = 0;    ///< blocked without a wall, or bits that do not go together
@@ -123,10 +87,7 @@ struct Judged_answers {
 /// Holds the answers against brute force over the closed walls of a grid: all that are not plain, and some
 /// others.
 Judged_answers judge_answers(const Body_trace& trace, const std::vector<std::uint32_t>& solid) {
-  Trace grid;
-  grid.nx = 6, grid.ny = 5, grid.nz = 4;
-  grid.obstacles = solid;
-  const test::Trace_walls walls(grid);
+  const test::Trace_walls walls({{6, 5, 4}, solid});
   Judged_answers judged;
   const auto judge = [&judged](bool is_blocked, bool meets) {
     ++judged.asked;
@@ -135,22 +96,21 @@ Judged_answers judge_answers(const Body_trace& trace, const std::vector<std::uin
     judged.touches += !is_blocked && meets;
   };
   std::size_t number = 0;
-  for_each_recorded_move(
-      trace, [&](const auto& answers, const auto& neighbours, const auto& from, const auto& target) {
-        const bool is_plain = std::ranges::all_of(answers, [](unsigned a) { return a == 0; });
-        if (is_plain && ++number % 10 != 0) return;
-        judge(answers[0] != 0, walls.meet_segment(from, target));
-        judged.wrong += answers[0] > 1;
-        for (std::size_t i = 0; i < neighbours.size(); ++i) {
-          const unsigned bits = answers[1 + i];
-          if (answers[0] != 0) {
-            judged.wrong += bits != body_trace_swept;
-            continue;
-          }
-          judge((bits & body_trace_blocked) != 0, walls.meet_segment(target, neighbours[i]));
-          judge((bits & body_trace_swept) != 0, walls.meet_triangle(from, target, neighbours[i]).has_value());
-        }
-      });
+  test::for_each_recorded_move(trace, [&](const test::Recorded_move& move) {
+    const bool is_plain = std::ranges::all_of(move.answers, [](unsigned a) { return a == 0; });
+    if (is_plain && ++number % 10 != 0) return;
+    judge(move.is_blocked(), walls.meet_segment(move.from, move.target));
+    judged.wrong += move.answers[0] > 1;
+    for (std::size_t i = 0; i < move.neighbours.size(); ++i) {
+      if (move.is_blocked()) {
+        judged.wrong += move.answers[1 + i] != body_trace_swept;
+        continue;
+      }
+      const Point<3>& q = move.neighbours[i];
+      judge(move.is_blocked_at_end(i), walls.meet_segment(move.target, q));
+      judge(move.is_swept(i), walls.meet_triangle(move.from, move.target, q).has_value());
+    }
+  });
   return judged;
 }
 
@@ -170,7 +130,8 @@ TEST(BodyReplay, WrongWallsAreNoticed) {
     std::vector<std::uint32_t> solid = solid_rooms;
     solid.erase(solid.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_GT(judge_answers(trace, solid).wrong, 0) << solid_rooms[i];
-    EXPECT_GT(mismatches_of(rooms<3>({6, 5, 4}, solid), trace, body_trace_options(Sweep::triangle)), 0u);
+    EXPECT_GT(mismatches_of(rooms<3>({6, 5, 4}, solid), trace, body_trace_options(Sweep::triangle, trace)),
+              0u);
   }
   std::vector<std::uint32_t> solid = solid_rooms;
   solid.insert(solid.begin(), 1);
@@ -184,8 +145,8 @@ TEST(BodyReplay, FalsifiedAnswersAreMismatches) {
   trace.answers[7] ^= body_trace_blocked;
   trace.answers[100] ^= body_trace_swept;
   trace.answers.back() ^= body_trace_bits;
-  EXPECT_EQ(mismatches_of(snapshot, trace, body_trace_options(Sweep::three_segments)), 2u);
-  EXPECT_EQ(mismatches_of(snapshot, trace, body_trace_options(Sweep::triangle)), 4u);
+  EXPECT_EQ(mismatches_of(snapshot, trace, body_trace_options(Sweep::three_segments, trace)), 2u);
+  EXPECT_EQ(mismatches_of(snapshot, trace, body_trace_options(Sweep::triangle, trace)), 4u);
   const auto half = std::span<const std::uint8_t>(trace.answers).first(trace.answers.size() - 3);
   EXPECT_EQ(count_mismatches(trace, half, Sweep::triangle), 6u) << "missing answers differ";
   EXPECT_EQ(count_mismatches(trace, half, Sweep::three_segments), 3u);

@@ -55,7 +55,7 @@ TEST(BodyReplay, AnswersByHand) {
     SCOPED_TRACE(c.what);
     const Body_trace trace = edge_trace({c.before, c.before}, {{c.target, c.before[1]}});
     for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle}) {
-      Body_replay replay(snapshot, locator, trace, body_trace_options(sweep));
+      Body_replay replay(snapshot, locator, trace, body_trace_options(sweep, trace));
       replay.prepare();
       replay.step();
       EXPECT_TRUE(replay.answers().empty());
@@ -78,7 +78,7 @@ TEST(BodyReplay, StandsWhereTheTraceSays) {
       right{in_plane(3.5, 2.25), in_plane(3.5, 2.75)}, far_left{in_plane(0.5, 2.25), in_plane(0.5, 2.75)};
   const Body_trace trace = edge_trace({left, far_left, right, left}, {right, right, far_left});
   const Locator<3> locator(snapshot);
-  Body_replay replay(snapshot, locator, trace, body_trace_options(Sweep::triangle));
+  Body_replay replay(snapshot, locator, trace, body_trace_options(Sweep::triangle, trace));
   const std::uint64_t anew[]{0, 0, 1};
   for (std::uint32_t s = 0; s < trace.steps; ++s) {
     replay.prepare();
@@ -104,7 +104,7 @@ TEST(BodyReplay, FacesDoNotCount) {
   for (int i = 0; i < 2; ++i) trace.before.insert(trace.before.end(), std::begin(around), std::end(around));
   trace.targets = {in_plane(0.2, 0.1), around[1], around[2]};
   const Locator<3> locator(snapshot);
-  Body_replay replay(snapshot, locator, trace, body_trace_options(Sweep::triangle));
+  Body_replay replay(snapshot, locator, trace, body_trace_options(Sweep::triangle, trace));
   replay.prepare();
   replay.step();
   replay.note_answers();
@@ -116,7 +116,7 @@ std::string body_refusal(Error_code code, const Body_trace& trace, Sweep sweep) 
   const auto snapshot = rooms<3>({5, 5, 1}, {12});
   try {
     const Locator<3> locator(snapshot);
-    Body_replay replay(snapshot, locator, trace, body_trace_options(sweep));
+    Body_replay replay(snapshot, locator, trace, body_trace_options(sweep, trace));
     while (replay.steps_done() < trace.steps) replay.prepare(), replay.step();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code);
@@ -145,7 +145,7 @@ TEST(BodyReplay, RefusesWhatItCannotReplay) {
   trace.bodies[0].edges.pop_back();
   const auto snapshot = rooms<3>({5, 5, 1});
   const Locator<3> locator(snapshot);
-  Body_replay replay(snapshot, locator, trace, body_trace_options(Sweep::triangle));
+  Body_replay replay(snapshot, locator, trace, body_trace_options(Sweep::triangle, trace));
   replay.prepare();
   EXPECT_NO_THROW(replay.step());
 }

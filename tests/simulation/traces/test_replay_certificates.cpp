@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Traces give the recorded answers with all certificates of bodies, with none, and with each alone.
 #include <cellwalk/internal/simulation/body_replay.h>
-#include <cellwalk/internal/simulation/replay.h>
-#include <cellwalk/internal/simulation/trace_rule.h>
 
 #include <gtest/gtest.h>
 
@@ -18,31 +16,11 @@ namespace {
 
 using test::Certificate_set;
 
-/// Bits that differ from the answers of a trace of boxes in a grid.
-std::uint64_t mismatches_of(const Trace& trace, const Snapshot<3>& snapshot, Sweep sweep,
-                            const Certificate_set& set, Body_counts& counts) {
-  const Locator<3> locator(snapshot);
-  std::vector<Body<3>> bodies;
-  for (std::uint32_t b = 0; b < trace.bodies; ++b) {
-    bodies.emplace_back(snapshot, locator, test::trace_body_at(&trace.start(b, 0)));
-    detail::use_certificates(bodies.back(), set.of_body, counts);
-  }
-  const Body_options options = set.chosen(trace_options(sweep));
-  std::vector<std::uint8_t> answers;
-  for (std::uint32_t step = 0; step < trace.steps; ++step)
-    for (std::uint32_t b = 0; b < trace.bodies; ++b) {
-      Step_report<3> report;
-      bodies[b].step({&trace.target(step, b, 0), trace_vertices}, options, report, counts);
-      append_answers(report.blocked, sweep, answers);
-    }
-  return count_mismatches(trace, answers, sweep);
-}
-
-/// The same of a trace of any bodies.
+/// Bits that differ from the answers of a trace.
 std::uint64_t mismatches_of(const Body_trace& trace, const Snapshot<3>& snapshot, Sweep sweep,
                             const Certificate_set& set, Body_counts& counts) {
   const Locator<3> locator(snapshot);
-  const Body_options options = set.chosen(body_trace_options(sweep));
+  const Body_options options = set.chosen(body_trace_options(sweep, trace));
   std::vector<std::uint8_t> answers;
   std::vector<std::optional<Body<3>>> bodies(trace.bodies.size());
   for (std::uint32_t s = 0; s < trace.steps; ++s)
@@ -65,8 +43,7 @@ std::uint64_t mismatches_of(const Body_trace& trace, const Snapshot<3>& snapshot
   return count_mismatches(trace, answers, sweep);
 }
 
-template <class Any_trace>
-void expect_recorded_answers(const Any_trace& trace, const Snapshot<3>& snapshot) {
+void expect_recorded_answers(const Body_trace& trace, const Snapshot<3>& snapshot) {
   Body_counts of_none;
   for (const Certificate_set& set : test::certificate_sets()) {
     SCOPED_TRACE(set.name);
@@ -84,8 +61,9 @@ void expect_recorded_answers(const Any_trace& trace, const Snapshot<3>& snapshot
 }
 
 TEST(ReplayCertificates, GiveTheAnswersOfAGrid) {
-  const Trace trace = test::random_trace({});
-  const Environment<3> grid = trace_environment(trace), sheared_grid = trace_environment(trace, sheared<3>());
+  const Body_trace trace = test::random_trace({});
+  const Environment<3> grid = trace_environment(*trace.grid),
+                       sheared_grid = trace_environment(*trace.grid, sheared<3>());
   expect_recorded_answers(trace, grid.snapshot());
   expect_recorded_answers(mapped(trace, sheared<3>()), sheared_grid.snapshot());
 }
@@ -94,8 +72,8 @@ TEST(ReplayCertificates, GiveTheAnswersWhereMuchTouches) {
   test::Touching_trace_options options;
   options.bodies = 8;
   options.seed = 100;  // that no other test has
-  const Trace trace = test::touching_trace(options);
-  const Environment<3> environment = trace_environment(trace);
+  const Body_trace trace = test::touching_trace(options);
+  const Environment<3> environment = trace_environment(*trace.grid);
   expect_recorded_answers(trace, environment.snapshot());
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,9 +36,21 @@ inline std::vector<std::uint32_t> degrees(const Traced_body& body) {
   return degrees;
 }
 
+/// A grid of unit cubes. Cell (ix,iy,iz) is the cube there, its index ix + nx (iy + ny iz). The outer
+/// boundary is a wall, and so are the facets of solid cells.
+struct Traced_grid {
+  std::array<std::uint32_t, 3> cells{};  ///< nx, ny, nz
+  std::vector<std::uint32_t> solid;      ///< their indices, ascending
+
+  /// \pre 64 bits hold it
+  std::uint64_t cell_count() const { return std::uint64_t{cells[0]} * cells[1] * cells[2]; }
+};
+
 /// A trace of bodies. Before step s all vertices stand at before[s]; then they move, body by body and vertex
 /// by vertex.
 struct Body_trace {
+  bool touch_blocks = false;        ///< a wall that is only touched is in the way, too
+  std::optional<Traced_grid> grid;  ///< the environment, if the trace has its own
   std::vector<Traced_body> bodies;
   std::uint32_t steps = 0;
   std::vector<Point<3>> before;   ///< [step][vertex of all bodies], and after the last step

@@ -14,10 +14,9 @@
 
 namespace cellwalk {
 
-/// Steps by the rule of body traces: what is blocked stays; what touches a wall is not blocked. They report
-/// what blocks.
+/// Steps by the rule of a trace: what is blocked stays. They report what blocks.
 /// \pre three_segments or triangle: with the latter, swept triangles are answered too
-Body_options body_trace_options(Sweep sweep);
+Body_options body_trace_options(Sweep sweep, const Body_trace& trace);
 
 /// The number of edges of each vertex of a body.
 /// \param number of the body in its trace
@@ -37,7 +36,7 @@ class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.
   /// \param first_body number of the first one in errors, if the trace is a part of another
-  /// \pre the trace is one that io::read_body_trace accepts
+  /// \pre the trace is one that io::read_trace accepts
   /// \throw Error(outside) naming the body, and its vertex or edge; Error(input) naming a vertex with more
   ///        than 64 edges; Error(usage) for Sweep::faces
   Body_replay(const Snapshot<3>& snapshot, const Locator<3>& locator, const Body_trace& trace,
@@ -76,6 +75,7 @@ class Body_replay {
   const Body_trace* trace_;
   Body_options options_;
   std::size_t first_body_;
+  std::size_t vertices_ = 0;               ///< of all bodies
   std::vector<std::size_t> first_vertex_;  ///< of each body
   std::vector<std::vector<std::uint32_t>> degrees_;
   std::vector<Body<3>> bodies_;

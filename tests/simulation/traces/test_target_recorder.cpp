@@ -12,34 +12,34 @@
 namespace cellwalk {
 namespace {
 
-using Corners = std::array<Point<3>, trace_vertices>;
+using test::Corners;
 
 /// A box of side 1/2 with its lowest corner here.
 Corners box_at(const Point<3>& low) {
   Corners corners;
-  for (std::size_t v = 0; v < trace_vertices; ++v)
+  for (std::size_t v = 0; v < 8; ++v)
     for (std::size_t k = 0; k < 3; ++k) corners[v][k] = low[k] + ((v >> k & 1) == 0 ? 0 : 0.5);
   return corners;
 }
 
 /// One body in a grid of 3 x 3 x 3 cells, the middle one of which is solid.
 struct Room {
-  Trace start;
+  Body_trace start;
   Environment<3> environment;
   Locator<3> locator;
 
   explicit Room(const Corners& body)
-      : start(start_of(body)), environment(trace_environment(start)), locator(environment.snapshot()) {}
+      : start(start_of(body)), environment(trace_environment(*start.grid)), locator(environment.snapshot()) {}
 
-  static Trace start_of(const Corners& body) {
-    Trace trace;
-    trace.nx = trace.ny = trace.nz = 3;
-    trace.obstacles = {13};
-    trace.bodies = 1;
-    trace.start_positions.assign(body.begin(), body.end());
+  static Body_trace start_of(const Corners& body) {
+    Body_trace trace;
+    trace.touch_blocks = true;
+    trace.grid = {{3, 3, 3}, {13}};
+    trace.bodies = {test::hexahedron()};
+    trace.before.assign(body.begin(), body.end());
     return trace;
   }
-  Trace_recorder recorder() const { return {environment.snapshot(), locator, start}; }
+  Target_recorder recorder() const { return {environment.snapshot(), locator, start}; }
 };
 
 template <class Call>
@@ -54,28 +54,30 @@ std::string refusal(Error_code code, Call call) {
   return {};
 }
 
-TEST(TraceRecorder, KeepsTargetsAndAnswers) {
+TEST(TargetRecorder, KeepsTargetsAndAnswers) {
   const Room room(box_at({0.125, 0.25, 0.375}));
-  Trace_recorder recorder = room.recorder();
+  Target_recorder recorder = room.recorder();
   const Corners free = box_at({0.1875, 0.25, 0.375});
   recorder.step(free);
   const Corners out = box_at({-0.25, 0.25, 0.375});  // every vertex with an even number leaves the grid
   recorder.step(out);
-  const Trace& trace = recorder.trace();
+  const Body_trace& trace = recorder.trace();
   EXPECT_EQ(trace.steps, 2u);
-  ASSERT_EQ(trace.moves(), trace.answers.size());
-  EXPECT_EQ(trace.target(0, 0, 3), free[3]);
-  EXPECT_EQ(trace.target(1, 0, 6), out[6]);
-  for (std::size_t v = 0; v < trace_vertices; ++v) {
-    EXPECT_EQ(trace.answer(0, 0, v), 0);
-    EXPECT_EQ(int{trace.answer(1, 0, v)}, v % 2 == 0 ? 0x71 : 0);
+  ASSERT_EQ(trace.answers.size(), 4 * trace.moves());
+  ASSERT_EQ(trace.before.size(), 3u * 8);
+  EXPECT_EQ(trace.targets_of_step(0)[3], free[3]);
+  EXPECT_EQ(trace.targets_of_step(1)[6], out[6]);
+  for (std::size_t v = 0; v < 8; ++v) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(trace.answers[4 * v + i], 0);
+      EXPECT_EQ(int{trace.answers[4 * (8 + v) + i]}, v % 2 == 1 ? 0 : i == 0 ? 1 : 2);
+    }
+    EXPECT_EQ(trace.before_step(2)[v], recorder.bodies()[0].positions()[v]);
     EXPECT_EQ(recorder.bodies()[0].positions()[v], v % 2 == 0 ? free[v] : out[v]);
   }
-  EXPECT_EQ(recorder.counts().moves, 16u);
-  EXPECT_EQ(recorder.counts().held, 4u);
 }
 
-TEST(TraceRecorder, RefusesStartsThatTouch) {
+TEST(TargetRecorder, RefusesStartsThatTouch) {
   const std::string message = refusal(Error_code::input, [] { Room(box_at({0, 0.25, 0.25})).recorder(); });
   EXPECT_TRUE(message.starts_with("body 0: its edge from vertex 0 to vertex 1 touches a wall at the start"))
       << message;
@@ -97,32 +99,36 @@ TEST(TraceRecorder, RefusesStartsThatTouch) {
             std::string::npos);
   EXPECT_TRUE(refusal(Error_code::outside, [] {
                 Room(box_at({1.25, 1.25, 1.25})).recorder();
-              }).starts_with("body 0: vertex 0 of the body"));
+              }).starts_with("body 0 before step 0: vertex 0 of the body"));
 }
 
 /// They are hits in a trace, and so the vertex stays off the wall.
-TEST(TraceRecorder, MovesThatTouchAreHits) {
+TEST(TargetRecorder, MovesThatTouchAreHits) {
   const auto answer_to = [](const Corners& body, std::size_t vertex, const Point<3>& target) {
     const Room room(body);
-    const test::Trace_walls walls(room.start);
-    Trace_recorder recorder = room.recorder();
+    const test::Trace_walls walls(*room.start.grid);
+    Target_recorder recorder = room.recorder();
     Corners targets = body;
     recorder.step(targets);  // standing still touches nothing
-    EXPECT_EQ(std::ranges::count(recorder.trace().answers, 0), 8);
+    EXPECT_EQ(std::ranges::count(recorder.trace().answers, 0), 8 * 4);
     targets[vertex] = target;
     recorder.step(targets);
-    const unsigned answer = recorder.trace().answer(1, 0, vertex);
-    std::array<Point<3>, trace_edges> q;
-    for (std::size_t k = 0; k < trace_edges; ++k) q[k] = body[trace_neighbour(vertex, k)];
-    EXPECT_EQ(answer, test::answer(walls, body[vertex], target, q));
+    std::vector<std::uint8_t> answers;
+    std::size_t number = 0;
+    test::for_each_recorded_move(recorder.trace(), [&](const test::Recorded_move& move) {
+      if (number++ != 8 + vertex) return;
+      answers = test::answers_where_touches_block(walls, move.from, move.target, move.neighbours);
+      EXPECT_TRUE(std::ranges::equal(move.answers, answers));
+    });
     EXPECT_EQ(recorder.bodies()[0].positions()[vertex], body[vertex]);
-    return answer;
+    return answers;
   };
   const Corners in_corner = box_at({0.25, 0.25, 0.25}), below = box_at({0.75, 1.25, 0.25});
-  EXPECT_EQ(answer_to(in_corner, 0, {0, 0.5, 0.5}), 0x71u) << "on the boundary";
-  EXPECT_EQ(answer_to(in_corner, 7, {1, 1, 1}), 0x71u) << "on a corner of the solid cell";
+  const std::vector<std::uint8_t> blocked{1, 2, 2, 2};
+  EXPECT_EQ(answer_to(in_corner, 0, {0, 0.5, 0.5}), blocked) << "on the boundary";
+  EXPECT_EQ(answer_to(in_corner, 7, {1, 1, 1}), blocked) << "on a corner of the solid cell";
   // An edge of the body comes to lie on an edge of that cell.
-  EXPECT_EQ(answer_to(below, 4, {0.75, 1.25, 1.25}) & trace_segment_bit, 0u);
+  EXPECT_EQ(answer_to(below, 4, {0.75, 1.25, 1.25})[0], 0);
 }
 
 }  // namespace

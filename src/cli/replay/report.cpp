@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk replay of a trace of any bodies, in an environment from a file.
-#include "cli/run/bodies.h"
-
+// What a replay finds, and how long it takes.
 #include <cellwalk/internal/simulation/body_replay.h>
+#include <cellwalk/internal/simulation/trace_environment.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/core.h>
@@ -12,12 +11,15 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "cli/common/contact_kind_names.h"
+#include "cli/common/environment_file.h"
 #include "cli/common/machine.h"
 #include "cli/common/node_environment.h"
 #include "cli/common/progress.h"
+#include "cli/run/bodies.h"
 #include "parts.h"
 #include "replay.h"
 
@@ -26,7 +28,23 @@ namespace {
 
 using nlohmann::ordered_json;
 
-Environment<3> load_environment_of_bodies(const Replay_options& options, Ranks& ranks) {
+/// The grid of the trace.
+Environment<3> grid_of(const Body_trace& trace, const Replay_options& options) {
+  if (!options.environment.empty())
+    throw Error(Error_code::usage,
+                fmt::format("--environment: {} holds its grid: leave the option out", options.trace));
+  const Progress progress("generating and certifying the grid");
+  try {
+    return trace_environment(*trace.grid, options.sheared ? sheared<3>() : Lattice_map<3>{});
+  } catch (const Error& error) {
+    // A trace is input, so errors in it are not those of a call.
+    const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
+    throw Error(code, fmt::format("{}: {}", options.trace, error.what()));
+  }
+}
+
+/// The environment of a file.
+Environment<3> load_for_replay(const Replay_options& options, Ranks& ranks) {
   if (options.environment.empty())
     throw Error(Error_code::usage,
                 fmt::format("--environment is missing: {} holds bodies, and not the walls around "
@@ -34,8 +52,8 @@ Environment<3> load_environment_of_bodies(const Replay_options& options, Ranks& 
                             options.trace));
   if (options.sheared)
     throw Error(Error_code::usage,
-                fmt::format("--shear is for traces in a grid of unit cubes, and {} is of any "
-                            "bodies: leave the option out",
+                fmt::format("--shear is for traces that hold a grid of unit cubes, and {} holds none: leave "
+                            "the option out",
                             options.trace));
   Build_options build;
   build.keep_map = false;
@@ -51,18 +69,17 @@ Environment<3> load_environment_of_bodies(const Replay_options& options, Ranks& 
 
 /// Replays the trace again and again. Only the moves are timed: bodies are put in place, and answers
 /// compared, in between.
-Rounds<Body_counts> replay_rounds_of_bodies(const Body_trace& trace, std::size_t first_body,
-                                            const Environment<3>& environment,
-                                            const Replay_options& options) {
+Rounds replay_rounds(const Body_trace& trace, std::size_t first_body, const Environment<3>& environment,
+                     const Replay_options& options) {
   using Clock = std::chrono::steady_clock;
   const Locator<3> locator(environment.snapshot());
   const int rounds = options.warmup + options.rounds;
   Progress progress("replaying " + options.trace, static_cast<std::uint64_t>(rounds));
-  Rounds<Body_counts> result;
+  Rounds result;
   result.step_us.assign(trace.steps, std::numeric_limits<double>::infinity());
   for (int round = 0; round < rounds; ++round) {
     Body_replay replay = naming(options.trace, [&] {
-      return Body_replay(environment.snapshot(), locator, trace, body_trace_options(options.sweep),
+      return Body_replay(environment.snapshot(), locator, trace, body_trace_options(options.sweep, trace),
                          first_body);
     });
     double ns = 0;
@@ -86,6 +103,13 @@ Rounds<Body_counts> replay_rounds_of_bodies(const Body_trace& trace, std::size_t
   return result;
 }
 
+/// The middle value, or the mean of the two in the middle. \pre there is one
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
 /// The least of sorted values that a share of them does not exceed. \pre there is one
 double quantile(const std::vector<double>& sorted, double share) {
   const double count = std::ceil(share * static_cast<double>(sorted.size()));
@@ -100,16 +124,20 @@ ordered_json step_times(std::vector<double> step_us) {
           {"max", step_us.back()}};
 }
 
-ordered_json manifest_of_bodies(const Body_trace& trace, const Environment<3>& environment,
-                                const Replay_options& options, const Ranks& ranks) {
+ordered_json manifest(const Body_trace& trace, const Environment<3>& environment,
+                      const Replay_options& options, const Ranks& ranks) {
   ordered_json result = machine_json();
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   result["trace"] = {{"file", name(options.trace)},
                      {"bodies", trace.bodies.size()},
                      {"vertices", trace.vertices()},
                      {"steps", trace.steps}};
-  result["environment"] = {{"file", name(options.environment)},
-                           {"cells", environment.snapshot().cell_count()}};
+  ordered_json& walls = result["environment"];
+  if (trace.grid)
+    walls = {{"grid", trace.grid->cells}, {"solid", trace.grid->solid.size()}, {"sheared", options.sheared}};
+  else
+    walls = {{"file", name(options.environment)}};
+  walls["cells"] = environment.snapshot().cell_count();
   result["sweep"] = sweep_names[static_cast<std::size_t>(options.sweep)];
   result["rounds"] = options.rounds;
   result["warmup"] = options.warmup;
@@ -117,12 +145,11 @@ ordered_json manifest_of_bodies(const Body_trace& trace, const Environment<3>& e
   return result;
 }
 
-std::string summary_of_bodies(const Body_trace& trace, const Environment<3>& environment,
-                              const Replay_options& options, const Rounds<Body_counts>& replayed,
-                              const std::vector<double>& ns_per_move, const ordered_json& us) {
-  std::string text =
-      fmt::format("{}: {} bodies with {} vertices, {} steps, among {} cells\n", options.trace,
-                  trace.bodies.size(), trace.vertices(), trace.steps, environment.snapshot().cell_count());
+std::string summary(const Body_trace& trace, const Environment<3>& environment, const Replay_options& options,
+                    const Rounds& replayed, const std::vector<double>& ns_per_move, const ordered_json& us) {
+  std::string text = fmt::format("{}: {} bodies with {} vertices, {} steps, among {} cells{}\n",
+                                 options.trace, trace.bodies.size(), trace.vertices(), trace.steps,
+                                 environment.snapshot().cell_count(), options.sheared ? ", sheared" : "");
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };
@@ -145,16 +172,15 @@ std::string summary_of_bodies(const Body_trace& trace, const Environment<3>& env
 
 }  // namespace
 
-std::optional<Replay_report> replay_bodies(const Body_trace& trace, const Replay_options& options,
-                                           Ranks& ranks) {
+std::optional<Replay_report> replay(Body_trace trace, const Replay_options& options, Ranks& ranks) {
   if (trace.moves() == 0)
     throw Error(Error_code::input, fmt::format("{}: {} bodies and {} steps: there is nothing to replay",
                                                options.trace, trace.bodies.size(), trace.steps));
-  const Environment<3> environment = load_environment_of_bodies(options, ranks);
+  const Environment<3> environment = trace.grid ? grid_of(trace, options) : load_for_replay(options, ranks);
+  if (options.sheared) trace = mapped(std::move(trace), sheared<3>());
   const Block bodies = ranks.block(trace.bodies.size());
   const Body_trace part = ranks.is_alone() ? Body_trace{} : part_of(trace, bodies);
-  Rounds<Body_counts> replayed =
-      replay_rounds_of_bodies(ranks.is_alone() ? trace : part, bodies.begin, environment, options);
+  Rounds replayed = replay_rounds(ranks.is_alone() ? trace : part, bodies.begin, environment, options);
   replayed.gather(ranks);
   if (!ranks.is_first()) return std::nullopt;
   const std::vector<double> ns_per_move = per_move(replayed.ns, trace.moves());
@@ -167,8 +193,8 @@ std::optional<Replay_report> replay_bodies(const Body_trace& trace, const Replay
   json["mismatches"] = trace.answers.empty() ? ordered_json() : ordered_json(replayed.mismatches);
   json["registered_anew"] = replayed.registered_anew;
   json["counts"] = to_json(replayed.counts);
-  json["manifest"] = manifest_of_bodies(trace, environment, options, ranks);
-  return Replay_report{json, summary_of_bodies(trace, environment, options, replayed, ns_per_move, us)};
+  json["manifest"] = manifest(trace, environment, options, ranks);
+  return Replay_report{json, summary(trace, environment, options, replayed, ns_per_move, us)};
 }
 
 }  // namespace cellwalk::cli
