@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The checks of types, shapes and indices of NumPy arrays, with errors that name the argument.
 #include "arrays.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The methods of Edits for Python, and selections of facets and cells by conditions.
 #include "bind_edits.h"
 
 #include <fmt/core.h>

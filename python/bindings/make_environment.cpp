@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Environments from arrays, files and generators, built without the interpreter lock.
 #include "make_environment.h"
 
 #include <cellwalk/loading/generators.h>

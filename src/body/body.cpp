@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The public functions of Body: they check their arguments, and steps within a region end here.
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>

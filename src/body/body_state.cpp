@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Untested moves in regions free of walls, and the registration of stale vertices and edges afterwards.
 #include "body_state.h"
 
 #include <utility>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The error bounds of times and coordinates, and their exact values where the bounds do not suffice.
 #include <cellwalk/internal/kernel/crossing.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Signs that decide most meetings, and exact clipping of sets in the simplex for the others.
 #include <cellwalk/internal/kernel/swept_simplex.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The mapping of compiled files, and the compaction of an environment before it is written.
 #include "compiled_file.h"
 
 #include <cellwalk/io/ovm.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The meshing component of a full build: TetGen, Mesh_3 and the triangulation of domains.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
 #include <cellwalk/loading/report.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The search for near features at growing distances, with a limit of pairs.
 #include "narrow_place.h"
 
 #include <CGAL/Bbox_3.h>

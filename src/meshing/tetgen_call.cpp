@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The switches of TetGen, its tolerances tried in turn, and the checks of its result.
 #include "tetgen_call.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The attempt of a move, shorter ways where something touches, and the push of what was met.
 #include "state.h"
 
 #include <cellwalk/internal/body/stop_candidates.h>

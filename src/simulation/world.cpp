@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The order of a step, free particles and then bodies in parallel, and the edits of the environment.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/world.h>
 

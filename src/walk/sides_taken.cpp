@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact times at which a motion passes its choices and meets walls, and their comparison.
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/sides_taken.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rules by which the region of a body is searched, kept and given up.
 #include "region_cache.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice of regions for the stars of vertices, and the limits of the searches for them.
 #include "region_pool.h"
 
 #include <cellwalk/internal/environment/cell_cluster.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for sides that agree along all edges: each choice narrows those of the neighbours.
 #include "registration.h"
 
 #include <cellwalk/internal/edge/chain_as_before.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sweeps of the faces at a vertex: those with a volume, flat ones, and the wedges between them.
 #include "body_faces.h"
 
 #include <cellwalk/internal/edge/flat_faces.h>

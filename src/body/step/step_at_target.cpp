@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rule of the paper, vertex by vertex: a move is made on the first sides that do not block it.
 #include "step_at_target.h"
 
 #include <cellwalk/internal/edge/furthest_move.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The first contact of a vertex, its edges and its faces, on each combination of sides of walls.
 #include "vertex_move.h"
 
 #include <cellwalk/internal/edge/edge_contact.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// One row for each change, with its place, its outcome and the reason of a refusal.
 #include "changes_table.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// An environment that one rank compiles into an unnamed file, and the others of its node map.
 #include "node_environment.h"
 
 #include <cellwalk/environment/compiled.h>

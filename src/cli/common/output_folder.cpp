@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A locked temporary folder, which is renamed at the end, and the removal of abandoned ones.
 #include "output_folder.h"
 
 #include <cellwalk/internal/io/own_files.h>

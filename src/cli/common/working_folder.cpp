@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The making, taking up, replacing and removing of OUT.part, in steps that survive a kill.
 #include "working_folder.h"
 
 #include <cellwalk/internal/io/durable.h>

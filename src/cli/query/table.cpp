@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rows of each rank, answered and then gathered, and the requested picture and repro file.
 #include "table.h"
 
 #include <cellwalk/internal/io/query_file.h>

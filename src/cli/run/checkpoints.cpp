@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bytes of a checkpoint, and the tests of those that are read.
 #include "checkpoints.h"
 
 #include <cellwalk/internal/io/mapped_file.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Rows of contacts and frames, written step by step.
 #include "files.h"
 
 #include <cellwalk/io/atomic_file.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The construction of all parts, from a scene or a checkpoint, and the order of their steps.
 #include "parts.h"
 
 #include <cellwalk/internal/simulation/saved_state.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Numbers of the loops and points of walls, and the differences after each change.
 #include "recorded_walls.h"
 
 #include <cellwalk/io/vtu.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The targets of points, their moves among bodies, and moves repeated after a relaxation.
 #include "walls.h"
 
 #include <cellwalk/loading/environment_file.h>

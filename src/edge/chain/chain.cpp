@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The chain by a walk from one end, the reversed chain, and the test whether a segment passes it.
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/walk/star.h>
 

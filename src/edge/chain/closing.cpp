@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for chains that avoid the new walls and equal the present one elsewhere.
 #include <cellwalk/internal/edge/closing.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>

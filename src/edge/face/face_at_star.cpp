@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The walls that enter or leave the plane of a face, and the way of the vertex through it.
 #include <cellwalk/internal/edge/face_at_star.h>
 #include <cellwalk/internal/kernel/predicates.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The start of the search for supporting walls from the chains of the three sides.
 #include "find_supporting_walls.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact times at which a point passes the moving planes, and the sides between them.
 #include "star_clock.h"
 
 #include <cellwalk/internal/environment/star_index.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The next event of the chain, the chain or contact after it, and the search over sides.
 #include "events.h"
 
 #include <cellwalk/internal/edge/triangle.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The chains just after a time, searched among all cells linked with the edge in its plane.
 #include "relink.h"
 
 #include <cellwalk/internal/edge/may_intersect.h>

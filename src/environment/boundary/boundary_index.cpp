@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The zones of vertices in which facets are parted, and the renewal of those that are left.
 #include <cellwalk/internal/environment/boundary_index.h>
 
 #include <algorithm>

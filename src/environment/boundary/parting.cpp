@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for planes between two facets, and the radius that each of them proves.
 #include <cellwalk/internal/environment/parting.h>
 
 #include <algorithm>

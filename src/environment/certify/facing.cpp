@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Pairs of facets with opposite normals from a grid of boxes, and the width of their common part.
 #include "facing.h"
 
 #include <cellwalk/internal/kernel/box.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Darts and vertices of the new cells: all are allocated before the old ones are unlinked.
 #include "map_patch.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The layout of clusters by the number of walls, made on demand by any thread.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
 

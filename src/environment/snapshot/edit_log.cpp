@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The entries of edits by epoch, renamed at compaction and forgotten when there are too many.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/edit_log.h>
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of cells, points and walls in the arrays, and free runs of blocks.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A flood through the facets at a point, from one stored cell of each of its parts.
 #include <cellwalk/internal/environment/star_index.h>
 
 #include <algorithm>

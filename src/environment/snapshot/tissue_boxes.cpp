@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The boxes of runs and groups, computed when a search first needs them.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/tissue_boxes.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Loops over indices by several threads, with errors that do not depend on their number.
 #ifndef CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
 #define CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The mapping of a file by Boost, or a copy of its content.
 #include <cellwalk/internal/io/mapped_file.h>
 
 #include <boost/interprocess/exceptions.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Exchanges of names, and the table of unfinished files that a signal handler removes.
 #include <cellwalk/internal/io/output.h>
 #include <cellwalk/internal/io/own_files.h>
 

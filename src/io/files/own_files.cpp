@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Folders opened without following links, and removed from the inside out.
 #include <cellwalk/internal/io/own_files.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The two encodings of .msh behind one interface, with checks of the counts that they announce.
 #include "msh_source.h"
 
 #include <fmt/format.h>

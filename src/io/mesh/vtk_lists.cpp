@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The keywords of a legacy file read as VTK reads them, with the sizes of their lists tested.
 #include "vtk_lists.h"
 
 #include <fmt/format.h>

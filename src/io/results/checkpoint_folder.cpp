@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The head of a checkpoint, its checksum, and the choice of the newest sound one.
 #include <cellwalk/internal/io/checkpoint_folder.h>
 #include <cellwalk/internal/io/durable.h>
 #include <cellwalk/internal/kernel/byte_archive.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The reader of recordings, which tests every count and number of a file.
 #include <cellwalk/internal/io/recording_file.h>
 
 #include <fmt/format.h>

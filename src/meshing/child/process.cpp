@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The start by posix_spawn() with given descriptors and signals, and the wait for the end.
 #include "process.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The search for a helper, its limits of time, and its complaints as errors.
 #include "run_helper.h"
 
 #include <cellwalk/internal/kernel/beside_program.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact signs of edges and points with respect to the pieces of a blade.
 #include "blade_side.h"
 
 #include <cellwalk/internal/kernel/crossing.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Cells labelled by sides of the blade, edges split, and vertices parted one after the other.
 #include "cutter.h"
 
 #include <cellwalk/internal/environment/boundary_index.h>

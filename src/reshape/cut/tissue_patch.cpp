@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The tests that a split keeps cells positive and solid off free space, and the patch of it.
 #include "tissue_patch.h"
 
 #include <cellwalk/internal/environment/star_index.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The residents near a star, followed on one combination of sides after the other.
 #include "vertex_trial.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rounded time, place and direction of a hit, and the lowest features that meet.
 #include "wall_hit.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The operations tried on the worst cells, each kept if the least quality rises.
 #include "relaxer.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The table from cells to residents, entered when it is first needed, and renewed when outdated.
 #include "resident_groups.h"
 
 #include <cellwalk/body/verified_stop.h>

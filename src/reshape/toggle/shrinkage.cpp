@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The vertices, edges and faces at new walls, and the sides that they are given together.
 #include "shrinkage.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The conditions of each change of facets and cells, and the faces that rest on walls opened.
 #include "toggle.h"
 
 #include <algorithm>

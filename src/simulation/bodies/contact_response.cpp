@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Impulses found by repeated passes over the contacts, and friction along the walls.
 #include "contact_response.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The advance of the rod, the waypoints of its tip, and the turn of its base.
 #include <cellwalk/simulation/rod.h>
 
 #include <algorithm>

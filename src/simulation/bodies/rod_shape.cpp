@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Bends transported along the links, and the passes of the relaxation.
 #include "rod_shape.h"
 
 #include <algorithm>

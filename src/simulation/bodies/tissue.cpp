@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Constraints of edge lengths and volumes, projected in turn, and points that follow.
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The facets and cells of each change found by position, and stitches kept until they succeed.
 #include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/change_schedule.h>
