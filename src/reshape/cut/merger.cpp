@@ -2,7 +2,6 @@
 // The cells around both points with one of them replaced, and the reasons why they may not merge.
 #include "merger.h"
 
-
 #include <algorithm>
 
 #include "reshape/replace/patch.h"
