@@ -9,7 +9,7 @@
 namespace cellwalk::python {
 namespace {
 
-/// Such as "float32 (10, 3)", or the type of what is no array.
+/// Such as "float32 (10, 3)", or the type of another object.
 std::string description(const py::handle& argument) {
   if (!py::isinstance<py::array>(argument))
     return std::string(py::str(py::type::of(argument).attr("__name__")));

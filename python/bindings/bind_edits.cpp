@@ -16,7 +16,7 @@
 namespace cellwalk::python {
 namespace {
 
-/// What Python calls Selection.
+/// The class Selection of Python.
 struct Selected {
   py::array facets, cells;
 };

@@ -18,15 +18,15 @@
 
 namespace cellwalk::python {
 
-/// What a call lists. Made with the interpreter, and keeps what is listed alive.
+/// The objects that a call lists. Made with the interpreter, and keeps them alive.
 struct Listed {
   std::vector<py::object> objects;
   std::vector<Any_body*> bodies;
   std::vector<Particles*> particles;
 };
 
-/// \throw TypeError for what is no body, or no particles, UsageError for what is listed twice, or lies in
-///        another environment
+/// \throw TypeError for objects that are no bodies, or no particles, UsageError for those that are listed
+///        twice, or lie in another environment
 Listed listed_of(const std::shared_ptr<Any_world>& world, const py::iterable& bodies,
                  const py::iterable& particles);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The extension module cellwalk._cellwalk; python/cellwalk/__init__.py is what users import.
+// The extension module cellwalk._cellwalk; users import python/cellwalk/__init__.py.
 #include "module.h"
 
 #include <cellwalk/io/mesh_file.h>

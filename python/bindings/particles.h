@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What Python calls Particles.
+// The class Particles of Python.
 #ifndef CELLWALK_PYTHON_PARTICLES_H
 #define CELLWALK_PYTHON_PARTICLES_H
 

@@ -24,7 +24,7 @@ constexpr std::array<char, 8> magic{'C', 'W', 'B', 'O', 'D', 'Y', '\r', '\n'};
 constexpr std::uint32_t version = 3;
 constexpr std::uint32_t byte_order = 0x01020304;
 
-/// What comes before the state.
+/// The bytes before the state.
 struct Head {
   std::array<char, 8> magic = detail::magic;
   std::uint32_t version = detail::version, byte_order = detail::byte_order, dimension = 0, unused = 0;
@@ -128,7 +128,7 @@ class Saved_body {
     if (!is_good) Byte_reader::refuse();
   }
 
-  /// Tests I1, I2 and I3, of a copy, as what is stale is registered for that.
+  /// Tests I1, I2 and I3, of a copy, since stale vertices and edges are registered for that.
   static void check_registration(const Body<D>& body) {
     Body<D> copy = body;
     Body_counts uncounted;

@@ -31,9 +31,9 @@ struct Wall_response {
 };
 
 /// Moves a particle by `velocity` for a unit of time. At each contact it stops (stop_at_contact), its
-/// velocity is reflected or made to slide along the wall, and what remains of the time is a new move, lifted
-/// off the wall by a few ulp. A particle that slides into a corner goes on along the edge between the two
-/// walls, or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
+/// velocity is reflected or made to slide along the wall, and the rest of the time is a new move, lifted off
+/// the wall by a few ulp. A particle that slides into a corner goes on along the edge between the two walls,
+/// or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
 /// appended to `met`, their times as shares of the unit of time: the first is exact, those after it follow
 /// from positions that are rounded.
 /// \pre response is in range

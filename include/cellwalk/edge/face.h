@@ -66,7 +66,7 @@ struct Face_result {
 /// Sweeps the face pqr while p moves along its path and q and r stand still. Returns the supporting walls
 /// after the move, or the first contact. Touching a wall is no contact. If p is blocked on its path, only
 /// contacts before that time count, and no supporting walls are returned, since the move is not made.
-/// What comes between two faces, over the edge that they share, is no matter of one face: Body finds it.
+/// Walls that come between two faces, over the edge that they share, concern no single face: Body finds them.
 ///
 /// Walls that cross an edge of the face come through it too, and are reported at the same time as by
 /// sweep_triangle(), or earlier; walls that hit only the edges (in the plane of the face) are not reported.
@@ -75,9 +75,8 @@ struct Face_result {
 ///        supporting walls are returned
 /// \pre the sweeps of the edges pq and pr are free, at least up to the time of a contact
 /// Degenerate cases: all positions of walls relative to the face. A face that moves in its own plane is free
-/// if its edges are, and if walls in the plane that are joined under what it sweeps have it and its edges on
-/// one side. A face with collinear corners has no
-/// interior.
+/// if its edges are, and if walls in the plane that are joined under the area that it sweeps have it and its
+/// edges on one side. A face with collinear corners has no interior.
 /// Cost: about 60 ns a cell near the face if it meets no wall; some hundred ns a wall near it; some ten us
 /// for the time of a contact; up to milliseconds if the face or one of its edges lies in the plane of walls.
 Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, const Particle<3>& q,

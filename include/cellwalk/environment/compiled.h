@@ -24,7 +24,7 @@ struct Held_bytes {
   std::shared_ptr<const void> owner;
 };
 
-/// What an image holds.
+/// The content of an image.
 template <int D>
 struct Compiled_environment {
   Environment<D> environment;  ///< frozen; Environment::thaw() gives it a map
@@ -42,7 +42,7 @@ bool is_compiled(std::span<const std::byte> bytes);
 /// \param certificate of the environment as it is now
 /// \param put is called with one piece after the other
 /// \pre no Reshaping of the environment is open
-/// Cost: linear; about 20 ms for 10^6 tetrahedra, and what `put` takes.
+/// Cost: linear; about 20 ms for 10^6 tetrahedra, and the time of `put`.
 template <int D>
 void write_compiled(const Environment<D>& environment, const Certificate& certificate,
                     const Groups<D>& groups, const std::function<void(std::span<const std::byte>)>& put);

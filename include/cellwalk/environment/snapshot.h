@@ -157,7 +157,7 @@ class Snapshot {
   const detail::Cell_clusters<D>& clusters() const { return clusters_; }
   /// Where solid cells and membranes lie, found where it is asked for.
   const detail::Tissue_boxes<D>& tissue_boxes() const { return tissue_boxes_; }
-  /// What was edited lately. Not part of what a compiled environment holds.
+  /// The latest edits. They are not part of a compiled environment.
   const detail::Edit_log& edits() const { return edits_; }
 
   // --- state
@@ -244,7 +244,7 @@ class Snapshot {
   Free_runs free_blocks_, free_vertices_;
   std::set<std::uint32_t> free_indices_, free_points_;
 
-  /// What is known of many cells at once is not of a cell that changes.
+  /// Forgets the boxes of many cells of which one changes.
   void forget(Cell cell) {
     clusters_.forget(cell);
     tissue_boxes_.forget(cell);

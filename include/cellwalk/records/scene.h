@@ -143,7 +143,7 @@ struct Wall_relaxation {
 /// How the walls of an environment move.
 template <int D>
 struct Scene_walls {
-  bool push = true;                   ///< they push what they meet out of their way; otherwise they stop
+  bool push = true;                   ///< they push bodies out of their way; otherwise they stop
   std::vector<Scene_shape<D>> fixed;  ///< where nothing moves
   std::optional<Pulsation<D>> pulsation;
   std::optional<Soft_walls> soft;

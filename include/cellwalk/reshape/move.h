@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What comes of the moves of walls among bodies and particles.
+// The outcomes of the moves of walls among bodies and particles.
 #ifndef CELLWALK_RESHAPE_MOVE_H
 #define CELLWALK_RESHAPE_MOVE_H
 
@@ -43,7 +43,7 @@ struct Wall_hit : Contact<D> {
   std::array<double, 3> resident_weights{};
 };
 
-/// What came of the move of a vertex.
+/// The outcome of the move of a vertex.
 template <int D>
 struct Vertex_result {
   std::uint32_t point = 0;
@@ -55,7 +55,7 @@ struct Vertex_result {
   double share = 1;
 };
 
-/// What came of the moves of many vertices.
+/// The outcome of the moves of many vertices.
 template <int D>
 struct Move_report {
   std::vector<Vertex_result<D>> short_of_target;  ///< the last result of each vertex that did not arrive

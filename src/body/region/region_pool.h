@@ -63,7 +63,7 @@ class Region_pool {
   /// Edits of the environment void all regions.
   void clear();
 
-  /// All that a copy has, but what follows from the certificates, by which it was made.
+  /// All members of a copy but those that follow from its certificates, by which it was made.
   template <class Archive>
   void archive(Archive& a) {
     std::vector<std::array<int, places_known>> known(known_.size());

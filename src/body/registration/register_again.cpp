@@ -15,7 +15,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// What is known of a body by names of today.
+/// The registration of a body before edits, by the names of today.
 template <int D>
 class Known_names {
  public:

@@ -53,7 +53,8 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   };
   if (walked.contact)
     keep(vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex);
-  // A vertex may touch, before it is blocked, what no edge touches off its start: edges may lie in its line.
+  // Before it is blocked, a vertex may touch walls that no edge touches off its start: edges may lie in its
+  // line.
   if (options.touch == Touch::stop && !(any && first))
     if (const auto touch = first_touch(snapshot, from, target, counts.edges))
       if (!first || meets_before(*touch, *first)) keep(*touch, vertex);
@@ -83,7 +84,7 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     if (any && options.touch == Touch::pass) {
-      // What an edge meets on the way counts only where triangles are swept.
+      // Walls that an edge meets on the way count only where triangles are swept.
       auto free = meets_wall && options.sweep != Sweep::three_segments
                       ? std::nullopt
                       : free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner),

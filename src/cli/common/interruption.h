@@ -27,12 +27,12 @@ struct Interrupted {
 
 using Signal_handler = void (*)(int);
 
-/// Has a signal handled, unless whoever started the program has it ignored: nohup(1) does that with SIGHUP,
-/// and a shell with SIGINT for work in the background. Returns what handled it before.
+/// Installs a handler of a signal, unless whoever started the program has it ignored: nohup(1) does that with
+/// SIGHUP, and a shell with SIGINT for work in the background. Returns the previous handler.
 Signal_handler handle_unless_ignored(int signal, Signal_handler handler);
 
 /// Records signals that end programs during its lifetime, instead of ending the program, but for those that
-/// are ignored. What came after the last check() acts when its lifetime ends. One at a time.
+/// are ignored. A signal after the last check() acts when its lifetime ends. One at a time.
 class Interruption {
  public:
   Interruption();

@@ -15,7 +15,7 @@
 
 namespace cellwalk::cli {
 
-/// A stage of long work: what it is called, and how much of it is done.
+/// A stage of long work: its label, and the part of it that is done.
 struct Stage {
   using Clock = std::chrono::steady_clock;
 
@@ -25,7 +25,7 @@ struct Stage {
   Clock::time_point start = Clock::now();
 };
 
-/// What a stage says of itself.
+/// The progress of a stage.
 struct Stage_state {
   double seconds = 0;       ///< since it began
   std::uint64_t done = 0;   ///< at that time
@@ -69,7 +69,7 @@ class Work_log {
   std::string path_;
   std::ofstream file_;
   std::chrono::duration<double> interval_;
-  std::mutex mutex_;  ///< of what follows, and of the file
+  std::mutex mutex_;  ///< guards the members below and the file
   std::condition_variable stopped_;
   bool is_stopped_ = false;
   std::vector<const Stage*> running_;  ///< the innermost one last

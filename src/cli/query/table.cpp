@@ -38,7 +38,7 @@ T from_message(std::string_view message) {
   return detail::Byte_reader(message).next<T>();
 }
 
-/// What a rank found out about its rows.
+/// The answers of a rank to its rows.
 struct Answered {
   std::array<std::uint64_t, std::size(motion_status_names)> tally{};
   Edge_counts counts;

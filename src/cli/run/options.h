@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What `cellwalk run` is asked for, and what it writes.
+// The options of `cellwalk run`, and its outputs.
 #ifndef CELLWALK_CLI_RUN_OPTIONS_H
 #define CELLWALK_CLI_RUN_OPTIONS_H
 
@@ -36,7 +36,7 @@ struct Given_options {
   bool steps = false, sweep = false, record = false, json = false;
 };
 
-/// What a run writes; null where it is not wanted.
+/// The outputs of a run; null for those not requested.
 struct Run_outputs {
   /// Of a new run.
   explicit Run_outputs(const Run_options& options)
@@ -65,7 +65,7 @@ struct Run_outputs {
   io::Atomic_file *record = nullptr, *json = nullptr;
 
  private:
-  /// Without what is left of a run with checkpoints that was killed before the first of them.
+  /// Without the rest of a run with checkpoints that was killed before the first of them.
   static const std::string& cleared(const Run_options& options, const std::string& name) {
     if (options.checkpoint_every > 0 && !name.empty()) io::remove_abandoned(name);
     return name;
