@@ -24,9 +24,9 @@ struct Replacement : Outcome {
   std::uint32_t point = none;
 };
 
-/// The cells that Reshaping::relax() looks at, and the operations that it may try. The quality of a tetrahedron
-/// of volume V is 6 sqrt(2) V / l^3, l being the root mean square of its edges; that of a triangle of area A
-/// is 4 sqrt(3) A / (sum of squares of its edges). It is 1 if regular, 0 if flat.
+/// The cells that Reshaping::relax() looks at, and the operations that it may try. The quality of a
+/// tetrahedron of volume V is 6 sqrt(2) V / l^3, l being the root mean square of its edges; that of a triangle
+/// of area A is 4 sqrt(3) A / (sum of squares of its edges). It is 1 if regular, 0 if flat.
 struct Relax_options {
   double good_enough = 0.3;  ///< cells of at least this quality are left alone
   int most_rounds = 4;       ///< through all cells that are not good enough
