@@ -35,7 +35,7 @@ auto with_moved(const Cell_view<D>& cell, std::uint32_t point, const Point<D>& x
     return use(at(loop[1]), at(loop[0]), at(loop[2]), at(apex));
 }
 
-/// Fetches what will be written if the point moves, so that it arrives while the rest is decided.
+/// Fetches the planes that will be written if the point moves, so that they arrive while the rest is decided.
 template <int D>
 void prefetch_planes(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
   for (const Cell c : cells) __builtin_prefetch(snapshot.blocks(c), 1);

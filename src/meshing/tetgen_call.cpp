@@ -76,7 +76,7 @@ std::vector<std::array<std::int32_t, 4>> neighbours_of(
   return neighbours;
 }
 
-/// What TetGen wrote, checked as far as one can without looking at the surfaces.
+/// The output of TetGen, checked as far as possible without the surfaces.
 Tetgen_result result_of(const Mesher_output& output, int scale) {
   Tetgen_result result;
   result.scale = scale;

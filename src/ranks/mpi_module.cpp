@@ -90,7 +90,7 @@ class Mpi final : public Transport {
  private:
   static constexpr bool abort_on_exception = false;
 
-  /// What goes before the bytes of a message.
+  /// The head before the bytes of a message.
   struct Head {
     std::uint64_t length = 0;
     Message_kind kind = Message_kind::part;

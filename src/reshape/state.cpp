@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The attempt of a move, shorter ways where something touches, and the push of what was met.
+// The attempt of a move, shorter ways where something touches, and the push of residents that were met.
 #include "state.h"
 
 #include <cellwalk/internal/body/stop_candidates.h>
@@ -129,9 +129,9 @@ Vertex_result<D> Reshaping_state<D>::move(std::uint32_t point, const Point<D>& t
   return result;
 }
 
-/// Moves what was met by what is left of the motion of the wall there, along the normal, as far as other
-/// walls allow; shared among the vertices of an edge or a face so that the point met moves so far. False if
-/// nothing moved.
+/// Pushes the resident that was met along the normal, by the rest of the motion of the wall there, as far as
+/// other walls allow; shared among the vertices of an edge or a face so that the point met moves by that
+/// length. False if nothing moved.
 template <int D>
 bool Reshaping_state<D>::push(const Wall_hit<D>& hit, const Vector<D>& motion) {
   ++counts.pushes;
@@ -148,8 +148,8 @@ bool Reshaping_state<D>::push(const Wall_hit<D>& hit, const Vector<D>& motion) {
   return has_moved;
 }
 
-/// Facets and cells change between moves only: all certificates are made anew, since what is written of the
-/// two cells of a facet must hold for both.
+/// Facets and cells change between moves only: all certificates are made anew, since the data of the two
+/// cells of a facet must hold for both.
 template <int D>
 Toggle<D>& Reshaping_state<D>::restored_toggle() {
   check_open();

@@ -199,7 +199,7 @@ const Rod<D>* World<D>::catheter() const {
   return nullptr;
 }
 
-// What the header defines too, for programs that do not inline it.
+// Functions that the header defines too, for programs that do not inline them.
 template class World<2>;
 template class World<3>;
 

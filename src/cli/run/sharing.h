@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A run whose particles and bodies ranks share: each advances a part, and the first writes what all did.
+// A run whose particles and bodies ranks share: each advances a part, and the first writes the results of
+// all.
 #ifndef CELLWALK_CLI_RUN_SHARING_H
 #define CELLWALK_CLI_RUN_SHARING_H
 

@@ -26,7 +26,7 @@
 
 namespace cellwalk::cli {
 
-/// Moves the walls before each step of a world. Writes what they meet to walls.csv and, if they are soft, the
+/// Moves the walls before each step of a world. Writes their contacts to walls.csv and, if they are soft, the
 /// forces on them to forces.csv.
 template <int D>
 class Run_walls {
@@ -41,8 +41,8 @@ class Run_walls {
             detail::Byte_reader& saved);
   void save(detail::Byte_writer& out) const;
 
-  /// Moves the walls to where they are to be after the step that is next. What a wall cannot do now it tries
-  /// again in the step after.
+  /// Moves the walls to where they are to be after the next step. The rest of a motion that is blocked is
+  /// tried again in the step after.
   void step(World<D>& world);
 
   /// To be called after changes of facets and cells.

@@ -13,7 +13,7 @@
 namespace cellwalk {
 namespace {
 
-/// What doubles prove of a segment and a facet, if that is a triangle.
+/// The proof by doubles for a segment and a facet, if that is a triangle.
 detail::Crossing_proof prove_crossing(const Cell_view<3>& cell, std::size_t i, const Point<3>& p,
                                       const Point<3>& q, Walk_counts& counts) {
   const auto loop = cell.loop(i);

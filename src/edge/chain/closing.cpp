@@ -31,7 +31,8 @@ bool has_cell(const Cells& cells, Cell c) {
   return std::find(cells.begin(), cells.end(), c) != cells.end();
 }
 
-/// The rule of a search for chains that avoid what is closed, and are equal to one that may pass it.
+/// The rule of a search for chains that avoid the facets and the cell that are closed, and are equal to one
+/// that may pass them.
 template <int D>
 class Closing_rule {
  public:

@@ -14,10 +14,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// All that p takes along in one plane that holds its way: the faces and edges in it move in it, and what is
-/// off it is on one side. Each of the former is on one side of each group of walls that its interior meets on
-/// the way. Two that are joined are on the same side of a wall that has inner points in what the common edge
-/// sweeps, or on the way of p; and in one wedge where walls have a ridge on that way.
+/// All that p takes along in one plane that holds its way: the faces and edges in it move in it, and the
+/// other ones are on one side of it. Each of the former is on one side of each group of walls that its
+/// interior meets on the way. Two that are joined are on the same side of a wall that has inner points in the
+/// area that the common edge sweeps, or on the way of p; and in one wedge where walls have a ridge on that
+/// way.
 class Motion_in_plane {
  public:
   /// \param flat a face that moves in the plane
@@ -201,7 +202,7 @@ class Motion_in_plane {
     return Half_facet::none;
   }
 
-  /// Between what is in the plane and what is held on the way, also off the plane.
+  /// Between the parts in the plane and those held on the way, also off the plane.
   bool spread_to_wedges() {
     bool is_new = false;
     for (const auto& part : parts_)

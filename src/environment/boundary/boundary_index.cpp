@@ -154,8 +154,8 @@ std::vector<Half_facet> Boundary_index<D>::meeting(std::span<const Point<D>> poi
   return result;
 }
 
-/// Parts what two sets of corners span, if need be with corners that stay where they are instead of in their
-/// zones, and lessens the radius of the way as that asks for.
+/// Parts the hulls of two sets of corners, if need be with corners that stay where they are instead of in
+/// their zones, and lessens the radius of the way as that asks for.
 template <int D>
 bool Boundary_index<D>::part(std::span<const Point<D>> points, const Zoned_move<D>& move,
                              std::span<const Corner> low, std::span<const Corner> high, bool is_one_facet) {
@@ -258,7 +258,7 @@ bool Boundary_index<D>::is_way_free(std::span<const Point<D>> points, std::uint3
   is_way_known_ = false;
   const Vertex& v = vertex(point);
   if (v.is_clear && v.zone.contains(target)) return true;
-  // What goes on in its direction stays longer in a zone that lies ahead.
+  // A vertex that goes on in its direction stays longer in a zone that lies ahead.
   const Point<D>& from = points[point];
   const Vector<D> step = target - from;
   const double ahead = std::min(share_ahead * v.zone.radius, most_steps_ahead * length(step));

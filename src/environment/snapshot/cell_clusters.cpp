@@ -35,7 +35,7 @@ std::uint32_t cluster_size(const Snapshot<D>& snapshot) {
   return static_cast<std::uint32_t>(std::clamp(size, least_size, most_size));
 }
 
-/// Of two threads that make the same, the second takes what the first made.
+/// Of two threads that make the same, the second takes the result of the first.
 template <class T>
 T& publish(std::atomic<T*>& place, std::unique_ptr<T> made) {
   T* expected = nullptr;

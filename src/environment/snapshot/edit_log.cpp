@@ -141,7 +141,7 @@ Edits_since Edit_log::since(std::uint64_t epoch) const {
   std::vector<std::uint32_t> turned;
   for (const Turned& facet : entries_since(turned_, epoch)) turned.push_back(facet.name);
   std::ranges::sort(turned);
-  for (const std::uint32_t name : turned)  // what was turned twice is as it was
+  for (const std::uint32_t name : turned)  // a facet that was turned twice is as it was
     if (!result.turned_.empty() && result.turned_.back() == name)
       result.turned_.pop_back();
     else

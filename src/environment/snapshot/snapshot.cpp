@@ -28,7 +28,7 @@ std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::u
   return {first, false};
 }
 
-/// False if a point of the cells lies outside the frame: what planes say holds in it only.
+/// False if a point of the cells lies outside the frame: planes are certified in it only.
 template <int D>
 bool are_framed(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
   Float_point<D> mapped;

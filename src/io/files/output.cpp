@@ -108,7 +108,7 @@ void put_in_place(std::span<Output* const> outputs, const std::function<void()>&
     while (done > 0) outputs[--done]->take_back();
     throw;
   }
-  const Hold_signals hold;  // what is not needed any more does not stay
+  const Hold_signals hold;  // an old file that is not needed any more is removed
   for (Output* output : outputs) output->settle();
 }
 

@@ -49,7 +49,8 @@ constexpr std::size_t longest_complaint = 4096, longest_shown = 160;
                               : "by -DCELLWALK_WITH_MESHING=ON"));
 }
 
-/// The first line of what a helper complained of, with what an assertion says first, in brackets; or nothing.
+/// The first line of the complaint of a helper, with the text that an assertion prints first, in brackets; or
+/// nothing.
 std::string complaint(const Memory_file& messages) {
   const std::vector<std::byte> bytes = messages.read(longest_complaint);
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -29,7 +29,7 @@ class Tissue_patch {
   /// \throw Error(usage) for a particle that does not lie in its cell
   void open_groups(std::uint32_t u, std::uint32_t v);
 
-  /// What walls do at an edge that is split.
+  /// The behaviour of walls at an edge that is split.
   enum class Walls : std::uint8_t {
     /// Solid retreats: the point lies on the free side of no wall. No wall there parts free cells from each
     /// other, free cells meet the edge on one side only, and no body's face rests on a wall there.

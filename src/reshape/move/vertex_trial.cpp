@@ -89,7 +89,7 @@ void Vertex_trial<D>::note_first_choice(const Reshape_counts& before) {
       grew(&Reshape_counts::same_cell) + grew(&Reshape_counts::same_chain) + grew(&Reshape_counts::apart);
 }
 
-/// Of what is in the way, the first is kept.
+/// Of several obstructions, the first is kept.
 template <int D>
 void Vertex_trial<D>::note(Obstruction& first, Obstruction next) {
   first.meeting = std::max(first.meeting, next.meeting);
@@ -165,7 +165,7 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   return false;
 }
 
-/// What blocks something that walls touch.
+/// Takes over the obstacle to a resident that walls touch.
 template <int D>
 void Vertex_trial<D>::take(std::optional<Star_block>& block, Star_meeting& met) const {
   if (!block) return;
@@ -224,7 +224,7 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
       }
       take(followed.block, met);
     }
-    // A blocked end says it all of what is only touched until then.
+    // A blocked end decides for an edge that is only touched until then.
     if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge, Body_feature::edge);
     return false;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Better cells where there are no walls: vertices move, cells are replaced. Qualities choose what is tried.
+// Better cells where there are no walls: vertices move, cells are replaced. Qualities choose the operations
+// that are tried.
 #ifndef CELLWALK_RESHAPE_REPLACE_RELAXER_H
 #define CELLWALK_RESHAPE_REPLACE_RELAXER_H
 

@@ -212,7 +212,7 @@ void Resident_groups<D>::enter_edge(Member edge, Cell first, const Chain& now, c
   for (auto f = begin; f != end; ++f) enter(snapshot_.neighbour(*f), edge, true);
 }
 
-/// Enters all anew, once most of what is entered may be outdated.
+/// Enters all anew, once most entries may be outdated.
 template <int D>
 void Resident_groups<D>::enter_anew() {
   auto first = std::exchange(first_, {});

@@ -101,7 +101,7 @@ void Shrinkage<D>::make() {
   }
 }
 
-/// True if an edge is at what is closed, so that its chain may have to change.
+/// True if an edge is at a facet or cell that is closed, so that its chain may have to change.
 /// \param is_parted set if the edge passes a new wall inside, so that it has no chain then
 template <int D>
 bool Shrinkage<D>::touches(std::uint32_t group, std::uint32_t edge, bool& is_parted) const {

@@ -87,7 +87,7 @@ class Side_choice {
   Walk_counts& counts_;
   Vertices vertices_;
   std::map<std::uint32_t, Edge> edges_;
-  // What is registered anew:
+  // Vertices and edges that are registered anew:
   std::vector<std::pair<std::uint32_t, Particle<D>>> moved_;
   std::vector<std::pair<std::uint32_t, Chain>> chains_;
   std::uint32_t failed_ = 0;

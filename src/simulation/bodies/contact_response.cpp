@@ -76,7 +76,7 @@ Place<D> place_of(const Body<D>& body, const Contact<D>& met, const Rigid_frame<
   return place;
 }
 
-/// Impulses so far, and what they changed.
+/// The impulses so far, and their effect on the velocities.
 template <int D>
 class Impulses {
  public:

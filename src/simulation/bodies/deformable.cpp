@@ -54,7 +54,8 @@ double Deformable<D>::height_energy(const Vector<D>& gravity) const {
   return sum;
 }
 
-/// Slows the vertices down to this kinetic energy: first what deforms the body, then its motion as a whole.
+/// Slows the vertices down to this kinetic energy: first the motion that deforms the body, then its motion as
+/// a whole.
 template <int D>
 void Deformable<D>::limit(double most) {
   most = std::max(0.0, most);
@@ -75,7 +76,7 @@ void Deformable<D>::limit(double most) {
     const Vector<D> v = motion.at(frame.arm(positions[i]));
     velocities_[i] = of_whole * v + of_rest * (velocities_[i] - v);
   }
-  // What rounding left over.
+  // The excess that rounding left.
   if (const double left = kinetic_energy(); left > most)
     for (Vector<D>& v : velocities_) v = (std::sqrt(most / left) * (1 - 0x1p-50)) * v;
 }
@@ -139,7 +140,7 @@ void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
     detail::answer_contacts<D>(body_, std::span(contacts).subspan(first),
                                {conditions.restitution, conditions.friction, resting, stiffness}, moved_,
                                velocities_);
-    // Walls take away first what gravity has just added: it moved nothing.
+    // Walls first take the energy away that gravity has just added: it moved nothing.
     level -= std::max(0.0, free - kinetic_energy() - gained);
   }
   level += height_before - height_energy(conditions.gravity);

@@ -16,7 +16,7 @@ namespace {
 /// In spacings: a link that is longer than it should be by so much holds the base back, as does a rod that
 /// has been pushed together by so much.
 constexpr double most_stretched = 0.5, most_compressed = 1;
-/// In steps of the advance: what was pushed together may come out this fast.
+/// In steps of the advance: a rod that was pushed together may come out this fast.
 constexpr double fastest = 2;
 constexpr double radians = std::numbers::pi / 180;
 

@@ -55,8 +55,8 @@ struct Natural_bend {
   }
 };
 
-/// Takes the natural curve of the tip along with it, turned as the base is now: what else bends the rod there
-/// stays where it is, as walls do. `old` are the vertices as they were before they were pushed and turned.
+/// Takes the natural curve of the tip along with it, turned as the base is now: other bends of the rod stay
+/// where they are, as walls do. `old` are the vertices as they were before they were pushed and turned.
 template <int D>
 void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const Point<D>> old,
               const Rod_state<D>& state, const Natural_bend<D>& bend, std::span<Point<D>> vertices);

@@ -36,7 +36,8 @@ Vector<3> across(std::span<const Point<3>> loop) {
   return sum;
 }
 
-/// What is known of each point of an environment: how walls around it face, and its neighbours along edges.
+/// The surroundings of each point of an environment: the normals of walls around it, and its neighbours along
+/// edges.
 template <int D>
 struct Point_surroundings {
   std::vector<Vector<D>> normals;  ///< the sum of those of its walls, away from free space

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What may prove moves of a body free before they are tested exactly, so that tests can ask for each alone.
-// Theory: docs/bodies.md, clearance and certified moves.
+// The certificates that may prove moves of a body free before they are tested exactly, for tests of each
+// alone. Theory: docs/bodies.md, clearance and certified moves.
 #ifndef CELLWALK_INTERNAL_BODY_CERTIFICATES_H
 #define CELLWALK_INTERNAL_BODY_CERTIFICATES_H
 

@@ -117,7 +117,7 @@ class Certain_line {
  private:
   static constexpr unsigned all_lanes = 15;
   static constexpr float unit = 0x1p-24F, part = unit * Part::num / Part::den;
-  /// In the frame. What underflows in shorter lines may exceed the bound.
+  /// In the frame. In shorter lines, the error by underflow may exceed the bound.
   static constexpr float least_length = 0x1p-60F, most_length = 0x1p60F;
   static Float4 magnitude(Float4 x) { return std::bit_cast<Float4>(std::bit_cast<Int4>(x) & 0x7fffffff); }
   static Float4 next(Float4 x) { return __builtin_shufflevector(x, x, 1, 2, 3, 0); }

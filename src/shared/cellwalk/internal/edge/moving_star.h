@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A vertex of the environment that moves while particles and edges stand still: what its walls meet, and how
-// cells and chains go on. Theory: docs/moving.md.
+// A vertex of the environment that moves while particles and edges stand still: the particles and edges that
+// its walls meet, and their cells and chains afterwards. Theory: docs/moving.md.
 #ifndef CELLWALK_INTERNAL_EDGE_MOVING_STAR_H
 #define CELLWALK_INTERNAL_EDGE_MOVING_STAR_H
 

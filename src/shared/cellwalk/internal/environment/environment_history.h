@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What an environment has chosen in the course of its edits and is not told by its arrays. A compiled copy
-// that follows it does exactly what the environment itself would have done: the same answers in the same
-// order, and the same counts.
+// The choices of an environment in the course of its edits that its arrays do not store. A compiled copy that
+// follows it does exactly what the environment itself would have done: the same answers in the same order,
+// and the same counts.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_ENVIRONMENT_HISTORY_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_ENVIRONMENT_HISTORY_H
 

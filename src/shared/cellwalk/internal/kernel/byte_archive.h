@@ -28,7 +28,8 @@
 
 namespace cellwalk::detail {
 
-/// True for what is copied as it lies in memory: numbers, and structs of counts, which have no padding.
+/// True for types that are copied as they lie in memory: numbers, and structs of counts, which have no
+/// padding.
 template <class T>
 struct Is_plain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T> || Count_set<T>> {};
 template <class T, std::size_t N>
@@ -132,8 +133,8 @@ class Byte_writer {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads what a Byte_writer wrote. All functions throw Error(input) where the bytes end before, or cannot be
-/// those of such a value.
+/// Reads the bytes that a Byte_writer wrote. All functions throw Error(input) where the bytes end before, or
+/// cannot be those of such a value.
 class Byte_reader {
  public:
   static constexpr bool is_reading = true;

@@ -57,7 +57,7 @@ struct Timed_point {
 template <int D>
 Timed_point<D> timed_point(const Crossing<D>& crossing);
 
-/// The fraction of an Exact_time: a number, or what it is computed from once it is needed.
+/// The fraction of an Exact_time: a number, or the crossing from which it is computed once it is needed.
 struct Exact_fraction {
   std::variant<Fraction, Crossing<2>, Crossing<3>> source;
 };

@@ -24,7 +24,7 @@ struct Side_taken {
   std::uint16_t sides;  ///< as many
   std::uint16_t taken;  ///< in the order of preference
 
-  /// What follows is the same for motions that arrive in linked cells.
+  /// The rest is the same for motions that arrive in linked cells.
   bool is_at_place_of(const Side_taken& other) const {
     return u == other.u && v == other.v && least == other.least;
   }
@@ -72,7 +72,7 @@ Walk_result<D> move_on_sides(const Snapshot<D>& snapshot, Particle<D>& particle,
 
 /// The walk on the sides on which it gets furthest, the first of them in the order of preference.
 /// \param walk_once (options, choices): a walk on given sides
-/// \param options with what a walk on preferred sides has appended already
+/// \param options with the output that a walk on preferred sides has appended already
 /// Cost: that of a walk for each side of each place.
 template <int D, class Walk_once>
 Walk_result<D> furthest_walk(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
