@@ -48,7 +48,7 @@ struct Move_scratch {
   std::vector<Facet_corners<D>> corners_ahead, corners_behind;
   Relink_scratch<D> relink;
 
-  /// Room for the chains of so many edges.
+  /// Makes room for the chains of this number of edges.
   void take_up_chains(std::size_t edges) {
     if (chains.size() < edges) chains.resize(edges);
   }

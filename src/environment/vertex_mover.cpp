@@ -15,7 +15,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// If fewer cells than one for so many blocks are withdrawn, they are sorted; else all blocks are looked at.
+/// If fewer cells than one for this number of blocks are withdrawn, they are sorted; else all blocks are
+/// looked at.
 constexpr std::size_t blocks_a_cell = 64;
 
 /// Calls use() with the points of a simplex, one of them moved to x, in an order in which their orientation

@@ -14,7 +14,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A vertex that touches something tries these shares of its way, halved so often.
+/// A vertex that touches something tries shorter ways, halved up to this number of times.
 constexpr int touch_halvings = 6;
 /// How much further than needed something is pushed, so that rounding does not bring it back.
 constexpr double contact_offset_ulps = 16;

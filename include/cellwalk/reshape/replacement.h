@@ -25,12 +25,12 @@ struct Replacement : Outcome {
 };
 
 /// The cells that Reshaping::relax() looks at, and the operations that it may try. The quality of a
-/// tetrahedron of volume V is 6 sqrt(2) V / l^3, l being the root mean square of its edges; that of a triangle
-/// of area A is 4 sqrt(3) A / (sum of squares of its edges). It is 1 if regular, 0 if flat.
+/// tetrahedron of volume V is 6 sqrt(2) V / l^3, l being the root mean square of its edges; the quality of a
+/// triangle of area A is 4 sqrt(3) A / (sum of squares of its edges). It is 1 if regular, 0 if flat.
 struct Relax_options {
   double good_enough = 0.3;  ///< cells of at least this quality are left alone
   int most_rounds = 4;       ///< through all cells that are not good enough
-  /// So many operations are made at most.
+  /// The largest number of operations.
   std::uint32_t most_operations = 1000;
   bool smooth = true, flip = true, split = true, collapse = true;
   /// Edges longer than this are split, shorter ones collapsed, in units of the mean of all edges around the

@@ -38,8 +38,8 @@ struct Vertex_move {
 
 struct Reshape_options {
   At_contact at_contact = At_contact::stop;
-  /// Moves of many vertices are tried in so many rounds: a vertex that would make a cell flat goes half of
-  /// the way to that, and has its next turn when the others moved.
+  /// The number of rounds in which moves of many vertices are tried: a vertex that would make a cell flat
+  /// goes half of the way to that, and has its next turn when the others moved.
   int most_rounds = 8;
   /// By At_contact::push, the number of times in a move that a vertex tries to push residents out of its way.
   int most_pushes = 16;

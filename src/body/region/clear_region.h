@@ -121,8 +121,8 @@ template <int D>
 struct Region_request {
   std::span<const Point<D>> positions;  ///< as many of these as possible,
   std::span<const Point<D>> targets;    ///< and of these,
-  double steps_ahead = 36;              ///< and where so many more steps of that kind would lead
-  double steps_around = 4;              ///< and a margin of so many steps on all sides
+  double steps_ahead = 36;              ///< and where this number of further steps of that kind would lead
+  double steps_around = 4;              ///< and a margin of this number of steps on all sides
   double margin = 0;                    ///< and one more, of this length
   bool keeps_all = false;               ///< without one of the positions, there is no region
   std::size_t most_planes = 6;          ///< it is cut by; at most Clear_region::most_planes

@@ -26,13 +26,13 @@
 
 namespace cellwalk::detail {
 
-/// A box cut at so many steps from the body will do; nearer to it, a half-space is tried.
+/// The number of steps from the body at which a cut of the box will do; nearer to it, a half-space is tried.
 constexpr double enough_steps = 4;
 /// How often a direction is turned to part two sets of points.
 constexpr int most_turns = 6;
 /// Half the extent of the frame, and a margin for rounding.
 constexpr double frame_and_more = 1 + 0x1p-20;
-/// Cells of so many blocks are looked at in one go.
+/// The number of blocks whose cells are looked at in one go.
 constexpr std::size_t blocks_at_once = 16;
 
 template <int D>

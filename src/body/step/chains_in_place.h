@@ -131,7 +131,7 @@ template <int D>
 struct Settled_move {
   /// The vertex at its target, if planes alone prove its way free: the facets crossed are in the scratch.
   std::optional<Particle<D>> to;
-  std::size_t free_edges = 0;  ///< so many, the first ones, are free, and their chains are in the scratch
+  std::size_t free_edges = 0;  ///< the number of first edges that are free, with chains in the scratch
   Relink_answer next_edge =
       Relink_answer::open;  ///< of the next one, if planes prove the way of the vertex free
 };

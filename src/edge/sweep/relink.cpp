@@ -38,7 +38,7 @@ class Relink_search {
           return now_.in_facet(cell, i).has_value();
         })) {}
 
-  /// Finds the chains that are not equal to each other, in the order of preference, but no more than so many.
+  /// Finds at most `most` chains that are not equal to each other, in the order of preference.
   std::vector<Relinked<D>> run(std::size_t most) {
     if (!lies_in_plane()) return {};
     const Event_time<D> end = next_root();

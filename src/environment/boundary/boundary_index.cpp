@@ -12,8 +12,8 @@ namespace {
 
 /// Rounds the bounds of a ball outwards, with a margin.
 constexpr double outwards = 0x1p-50;
-/// The zone of a vertex lies ahead of it by this share of the radius of the one before, but not farther than
-/// so many steps.
+/// The zone of a vertex lies ahead of it by this share of the radius of the one before, but at most this
+/// number of steps.
 constexpr double share_ahead = 0.6, most_steps_ahead = 4;
 /// All facets at a vertex are parted from another one at once if that leaves this share of the radius.
 constexpr double at_once_share = 0.5;

@@ -11,11 +11,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A cluster should have so many walls on average,
+/// The mean number of walls of a cluster,
 constexpr std::size_t walls_a_cluster = 48;
-/// and so many blocks of cells.
+/// and the bounds of its number of blocks of cells.
 constexpr std::size_t least_size = 16, most_size = std::size_t{1} << 14;
-/// So many blocks, at even distances, tell how many walls there are.
+/// The number of blocks, at even distances, from which the number of walls is estimated.
 constexpr std::size_t samples = 4096;
 /// The table has room for this share of further names.
 constexpr std::size_t share_of_room = 4;
@@ -56,7 +56,7 @@ struct Cell_clusters<D>::Table {
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 
-  /// So many clusters have names that are given out.
+  /// The number of clusters whose names are given out.
   std::size_t number_of(const Snapshot<D>& snapshot) const {
     return snapshot.half_facet_slots() / 4 / size + 1;
   }

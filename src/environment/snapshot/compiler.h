@@ -40,7 +40,7 @@ class Snapshot_compiler {
   /// until Snapshot::update_geometry().
   void withdraw(Cell c);
   class Wall_change;
-  /// Forgets boxes of many cells, which are wrong if they were found since the points of a cell began to move.
+  /// Forgets boxes of many cells, which are wrong if they were found since points of a cell began to move.
   void forget(Cell c) { s_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }

@@ -29,7 +29,7 @@ struct Slot {
 };
 std::array<Slot, slot_count> slots;
 
-std::atomic<int> names_change = 0;      // by so many threads now
+std::atomic<int> names_change = 0;      // the number of threads that change names now
 std::atomic<bool> are_removed = false;  // files, or they will be and nothing else is to come
 constexpr useconds_t nap = 100;         // microseconds
 /// About ten seconds: a change of a name on a slow network is waited for, and not for ever.

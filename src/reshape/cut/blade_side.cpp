@@ -72,8 +72,8 @@ Point<3> nearest_on(const std::array<Point<3>, 3>& p, const Vector<3>& normal, c
 }
 
 /// In doubles, the distance of a point from a piece is off by some 2^-50 of that from its corners. Where they
-/// are no farther off than so many times the size of the environment, that is 2^-30 of this size, much less
-/// than cells are wide.
+/// are no farther off than this multiple of the size of the environment, that is 2^-30 of this size, much
+/// less than cells are wide.
 constexpr double farthest = 0x1p20;
 
 Vector<2> normal_of(const std::array<Point<2>, 2>& p) { return unit_normal(p[0], p[1]); }

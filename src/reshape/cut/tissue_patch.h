@@ -55,7 +55,8 @@ class Tissue_patch {
 
  private:
   static constexpr std::size_t corner_count = static_cast<std::size_t>(D) + 1;
-  /// The point goes off into the solid by so many units in the last place, doubled so often.
+  /// The number of times that the shift of a point into the solid is doubled, from one unit in the last
+  /// place.
   static constexpr int most_shifts = 8;
   using Simplex = std::array<std::uint32_t, corner_count>;
   /// A facet of a simplex that lacks one of its corners.

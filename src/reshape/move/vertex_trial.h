@@ -89,8 +89,8 @@ class Vertex_trial {
 
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;
-  /// Where vertices and edges of a body may be on several sides of walls, so many choices are tried, each for
-  /// all of them.
+  /// The number of choices that are tried where vertices and edges of a body may be on several sides of
+  /// walls, each for all of them.
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
   bool follows_all_ = false;   ///< also vertices that keep their cells

@@ -12,7 +12,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// So many entries may be outdated or not before all are made anew.
+/// The number of entries, outdated or not, beyond which all are made anew.
 std::size_t most_for(std::size_t entries) { return 4 * entries + 4096; }
 
 void sort_unique(std::vector<Member>& members) {

@@ -11,8 +11,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Faces in the plane of a new wall are tried on both of its sides: of so many all ways, of more all on one
-/// side, then all on the other.
+/// Faces in the plane of a new wall are tried on both of its sides: up to this number in all combinations,
+/// more of them all on one side, then all on the other.
 constexpr std::size_t most_free_faces = 4;
 
 template <int D>

@@ -45,7 +45,7 @@ class Side_choice {
   /// forget_demands().
   void demand(std::uint32_t edge, Half_facet at);
   void forget_demands();
-  /// Finds sides for all. False if there are none, or after so many tries.
+  /// Finds sides for all. False if there are none, or after a limit of tries.
   bool choose();
   /// An edge that was without a side when the last choice failed.
   std::uint32_t failed() const { return failed_; }

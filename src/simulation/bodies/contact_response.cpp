@@ -10,8 +10,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Contacts of one step disturb each other: so often they are gone through at most, and no longer than speeds
-/// change by more than this share of the fastest.
+/// Contacts of one step disturb each other. They are passed over at most this number of times, and no longer
+/// than speeds change by more than this share of the fastest.
 constexpr int impulse_passes = 32;
 constexpr double settled = 1e-9;
 

@@ -13,7 +13,7 @@
 namespace cellwalk {
 namespace {
 
-/// A body that walls give no more momentum than it gains by falling for so many steps does not bounce.
+/// A body that walls give no more momentum than it gains by falling for this number of steps does not bounce.
 constexpr double resting_steps = 2;
 
 template <int D>

@@ -9,8 +9,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the
-/// steps that follow.
+/// Passes of a relaxation: in one step a bend is felt at this distance in links, and the rest of it goes in
+/// the steps that follow.
 constexpr int relaxation_passes = 12;
 
 /// Takes a vector across one direction to one across another, by the least rotation.

@@ -17,7 +17,7 @@
 namespace cellwalk {
 namespace {
 
-/// Toward fixed parts, the motion fades over so many amplitudes.
+/// Toward fixed parts, the motion fades over this number of amplitudes.
 constexpr double fading_amplitudes = 10;
 /// Each sweep over the points between walls takes each to the mean of its neighbours. Points lie few cells
 /// from a wall, so that more sweeps change little.
@@ -93,7 +93,7 @@ Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
   return result;
 }
 
-/// Normals of walls become the mean of their own and those beside them along walls, as units, so often.
+/// In each sweep, normals of walls become the mean of their own and those beside them along walls, as units.
 template <int D>
 void smooth_normals(Point_surroundings<D>& around, std::uint32_t sweeps) {
   const auto& pairs = around.along_walls;

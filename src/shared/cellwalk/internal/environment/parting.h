@@ -37,7 +37,8 @@ struct Zoned_move {
   Point<D> from{}, to{};
 };
 
-/// Facets at a vertex have at most so many corners, for all of them to be parted from another one at once.
+/// The largest number of corners of the facets at a vertex for which all of them are parted from another one
+/// at once.
 inline constexpr std::size_t most_corners = 12;
 
 /// A radius r, not negative, that parts two sets of corners: their hulls have no more in common than the hull

@@ -182,7 +182,7 @@ class Byte_reader {
     const auto bytes = take_bytes(count * sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(values), bytes.data(), bytes.size());
   }
-  /// A number of items, of which each takes so many bytes at least.
+  /// A number of items, of which each takes at least this number of bytes.
   std::size_t take_count(std::size_t least) {
     std::uint64_t wide = 0;
     take_plain(&wide, 1);

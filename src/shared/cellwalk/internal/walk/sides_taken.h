@@ -32,8 +32,9 @@ struct Side_taken {
 /// Those of a motion, in order.
 using Sides_taken = boost::container::small_vector<Side_taken, 4>;
 
-/// So many combinations of sides are tried for a motion that takes edges along; then the latest contact found
-/// counts. Edges mostly leave one side of each wall, so that there is one combination for each wall passed.
+/// The number of combinations of sides that are tried for a motion that takes edges along; then the latest
+/// contact found counts. Edges mostly leave one side of each wall, so that there is one combination for each
+/// wall passed.
 constexpr int most_side_tries = 256;
 
 /// The next combination of sides: another one at the last choice that leaves one. False if none does.
