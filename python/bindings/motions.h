@@ -37,7 +37,7 @@ using Contact_row_2 = Contact_row<2>;
 using Contact_row_3 = Contact_row<3>;
 
 /// The class Motions of Python. A small move takes a few nanoseconds, and memory that is written for the
-/// first time costs as much: arrays that can be made when they are asked for are not written before.
+/// first time costs as much: arrays that can be made when they are requested are not written before.
 struct Motions {
   py::array_t<std::uint8_t> status;
   py::array_t<std::uint32_t> cells;
@@ -47,7 +47,7 @@ struct Motions {
   /// Row and time of each contact; `contacts` belongs to the caller.
   std::vector<std::pair<std::size_t, double>> stops;
   py::array_t<std::uint32_t> handles;  ///< Snapshot's names of the cells; none where no motion was made
-  py::object cell = py::none(), time = py::none();  ///< made when they are asked for
+  py::object cell = py::none(), time = py::none();  ///< made when they are requested
 
   std::size_t size() const { return static_cast<std::size_t>(status.size()); }
   const py::object& cell_numbers();

@@ -19,8 +19,8 @@
 
 namespace cellwalk::python {
 
-/// The particles of an environment of either dimension. They know of the moves of its walls in which they
-/// were listed; after others they refuse to move, instead of missing a wall.
+/// The particles of an environment of either dimension. They follow the moves of its walls in which they are
+/// listed; after others they refuse to move, instead of missing a wall.
 class Particles {
  public:
   Particles(Held_world environment, const py::object& points, int threads);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// An environment as Python holds it: any number of particles, bodies and threads share it. They ask it at the
-// same time, or one of them moves its walls or edits it while the others wait.
+// An environment as Python holds it: any number of particles, bodies and threads share it. They query it at
+// the same time, or one of them moves its walls or edits it while the others wait.
 #ifndef CELLWALK_PYTHON_WORLD_H
 #define CELLWALK_PYTHON_WORLD_H
 
@@ -223,7 +223,7 @@ class World {
   mutable std::uint64_t certified_;  ///< the epoch of the certificate
   mutable std::optional<Locator<D>> locator_;
   mutable std::uint64_t located_;  ///< the geometry epoch of the locator
-  /// The points that Python sees, once asked for: edits may move those of the environment in memory.
+  /// The points that Python sees, once requested: edits may move those of the environment in memory.
   mutable std::shared_ptr<std::vector<Point<D>>> shown_;
   mutable std::uint64_t shown_at_ = 0;  ///< their geometry epoch
 };

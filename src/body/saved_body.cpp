@@ -38,7 +38,7 @@ struct Head {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::input, what); }
 
-/// Which environment a body lies in, as far as numbers tell.
+/// The numbers by which the environment of a body is recognised.
 template <int D>
 std::array<std::uint64_t, 5> identity(const Snapshot<D>& snapshot) {
   return {snapshot.epoch(), snapshot.geometry_epoch(), snapshot.half_facet_slots(), snapshot.cell_count(),

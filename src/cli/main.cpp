@@ -36,7 +36,7 @@ using cellwalk::Error_code;
 using cellwalk::Ranks;
 
 constexpr std::string_view no_memory = "out of memory: use a smaller input or a larger machine";
-/// Where there is no error that tells: memory may not even have sufficed for one.
+/// Where there is no error with a message: memory may not even have sufficed for one.
 constexpr std::string_view no_error =
     "out of memory, or a defect of the program: use a smaller input or a larger machine, or report it";
 constexpr bool for_good = true;
@@ -181,7 +181,7 @@ std::string empty_word(std::span<char* const> words) {
   return {};
 }
 
-/// Where long work is said to be.
+/// Where the progress of long work is logged.
 struct Log_options {
   std::string file;  ///< none if empty
   double seconds = 60;

@@ -209,7 +209,7 @@ Image Renderer::render() const {
   return image;
 }
 
-/// The most samples that the drawing may take, as asked at most.
+/// Renders with as many samples as the drawing may take, and at most as requested.
 Image render_within_bounds(const Drawing& drawing, const Picture_options& options) {
   const double pixels = double{1} * options.width * options.height;
   const auto samples_of = [pixels](int samples) { return pixels * samples * samples; };

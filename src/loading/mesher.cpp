@@ -40,7 +40,7 @@ void add_surfaces(const Report& report, Meshed<3>& meshed) {
   }
 }
 
-/// Adds a line that says why TetGen needed another tolerance than its own.
+/// Adds a line with the reason why TetGen needed another tolerance than its own.
 void add_tolerance(const std::string& tolerance, Meshed<3>& meshed) {
   if (tolerance.empty()) return;
   meshed.lines.push_back(tolerance);

@@ -34,7 +34,7 @@ Box<D> Reshaping_state<D>::box_of_star(const Point<D>& target) const {
 }
 
 /// Moves the point to the target or leaves it where it is.
-/// \param is_first whether a call asks for this move for the first time
+/// \param is_first whether this is the first attempt of the move in a call
 template <int D>
 Vertex_result<D> Reshaping_state<D>::attempt(std::uint32_t point, const Point<D>& target, Attempt kind,
                                              bool is_first) {

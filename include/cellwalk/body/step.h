@@ -40,11 +40,10 @@ enum class Step_rule {
   /// Edges and faces are tested as above. The vertex stays where it was.
   reject,
   /// The rule of the paper, and of traces: edges are tested at the target of the vertex, which stays where it
-  /// was. Unless Sweep::three_segments is asked for, edges that meet a wall on their way are reported, too,
-  /// but do not hold the vertex back; faces are left alone. With Touch::stop any closed wall is in the way
-  /// that meets the closed way of the vertex, or an edge at its end, or a closed triangle. This includes
-  /// walls that are touched at the start: a vertex or an edge at a wall stays. Vertices have at most 64
-  /// edges.
+  /// was. Unless Sweep::three_segments is chosen, edges that meet a wall on their way are reported, too, but
+  /// do not hold the vertex back; faces are left alone. With Touch::stop any closed wall is in the way that
+  /// meets the closed way of the vertex, or an edge at its end, or a closed triangle. This includes walls
+  /// that are touched at the start: a vertex or an edge at a wall stays. Vertices have at most 64 edges.
   reject_at_target
 };
 
@@ -81,7 +80,7 @@ struct Step_report {
 
 /// Counts of the moves of bodies. All of them are machine-independent.
 struct Body_counts {
-  std::uint64_t moves = 0;         ///< moves of vertices asked for
+  std::uint64_t moves = 0;         ///< moves of vertices requested
   std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
   std::uint64_t regions = 0;       ///< such regions found
   std::uint64_t no_region = 0;     ///< searches that found none

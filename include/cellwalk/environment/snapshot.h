@@ -153,9 +153,9 @@ class Snapshot {
   }
   /// The number of facets whose plane could not be certified; they are always decided exactly.
   std::size_t uncertified_planes() const { return uncertified_planes_; }
-  /// The walls by clusters of cells, made where they are asked for.
+  /// The walls by clusters of cells, made where they are needed.
   const detail::Cell_clusters<D>& clusters() const { return clusters_; }
-  /// Where solid cells and membranes lie, found where it is asked for.
+  /// The places of solid cells and membranes, found where they are needed.
   const detail::Tissue_boxes<D>& tissue_boxes() const { return tissue_boxes_; }
   /// The latest edits. They are not part of a compiled environment.
   const detail::Edit_log& edits() const { return edits_; }

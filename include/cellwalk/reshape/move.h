@@ -65,7 +65,8 @@ struct Move_report {
 
 /// The counts of moves. They are machine-independent. Each attempt counts all it looks at anew: at candidates
 /// to stop at, after pushes, in each round, and for each choice of sides. Only `near` and `certified` are
-/// those of first attempts: of each pair of a vertex moved, or asked about, and something near it, once.
+/// those of first attempts: each pair of a vertex moved or tested and a feature of a resident near it counts
+/// once.
 struct Reshape_counts {
   std::uint64_t moves = 0;  ///< of vertices of the environment tried, those of candidates to stop at included
   std::uint64_t made = 0;

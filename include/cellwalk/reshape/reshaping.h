@@ -75,8 +75,8 @@ class Reshaping {
   Reshaping(Reshaping&&) noexcept;
   Reshaping& operator=(Reshaping&&) noexcept;
 
-  /// Moves a vertex to a target, or as far as options.at_contact says. An obstacle to a move is a result, not
-  /// an error. An error changes nothing.
+  /// Moves a vertex to a target, or as far as options.at_contact allows. An obstacle to a move is a result,
+  /// not an error. An error changes nothing.
   /// \throw Error(usage) if there is no such point, if a cell around it is not a simplex (see
   ///        Build_options::simplicial), for a particle that is not in its cell, and after finish();
   ///        Error(input) for a target that is not finite
@@ -162,7 +162,7 @@ class Reshaping {
   Replacement remove_edge(std::uint32_t u, std::uint32_t v);
 
   /// Removes a point by moving it along an edge into the other end. Refused if a wall or the boundary has it.
-  /// Later new points may get its index; Snapshot::is_point() says which are in use.
+  /// Later new points may get its index; Snapshot::is_point() tests whether one is in use.
   Replacement collapse(std::uint32_t u, std::uint32_t onto);
 
   /// Makes cells around some points better, worst first: flips and removals of edges, moves of vertices that
@@ -204,7 +204,7 @@ class Reshaping {
   /// blade, and on the boundary of the environment it stays closed. Membranes of triangles (2D: segments) are
   /// slit as wide as the opening, but where something has to lie beside them. Solid only retreats. All else
   /// is never refused; where something could not be split or parted, the cut is incomplete, and the report
-  /// says how much of it.
+  /// counts the parts.
   /// \throw Error(input) for a blade that is none or lies far off, or an opening that is no positive length;
   ///        Error(usage) if frozen or closed, and for a particle near not in its cell; before any change
   /// Cost: some 40 us a cell that the blade passes, and at the first time 0.2 us a cell of the environment.

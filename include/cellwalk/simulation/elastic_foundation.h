@@ -44,7 +44,7 @@ class Elastic_foundation {
   /// otherwise. Ascending.
   std::vector<Vertex_move<D>> targets() const;
   /// Takes note of where walls got: the rest of their way is no yield.
-  /// \param moves those that were asked for
+  /// \param moves those that were requested
   void follow(std::span<const Vertex_move<D>> moves, const Move_report<D>& report);
 
   /// The yield of a vertex.
@@ -57,7 +57,7 @@ class Elastic_foundation {
  private:
   using Increments = std::vector<std::pair<std::uint32_t, Vector<D>>>;
   void spread(Increments& increments) const;
-  /// One that knows no vertex yet.
+  /// One without vertices yet.
   Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft)
       : snapshot_(&snapshot), soft_(soft) {}
   /// True if all that was read refers to something.

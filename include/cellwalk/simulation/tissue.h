@@ -28,8 +28,8 @@ class Tissue {
   /// Reads where the points are now: without tension they are at rest there, with tension edges are longer
   /// than they would be.
   /// \param fixed vertices in these stay
-  /// \throw Error(usage) for a material whose numbers are not as Tissue_material says; Error(input) if there
-  ///        is no solid cell, or one that is not a simplex
+  /// \throw Error(usage) for a material whose numbers are out of the ranges of Tissue_material; Error(input)
+  ///        if there is no solid cell, or one that is not a simplex
   /// Cost: that of sorting the edges.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material, std::span<const Scene_shape<D>> fixed);
 
@@ -62,7 +62,7 @@ class Tissue {
     std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> corners;
     double rest;  ///< D! times its volume
   };
-  /// One that knows no cell yet.
+  /// One without cells yet.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material)
       : snapshot_(&snapshot), material_(material) {}
   /// True if all that was read refers to something.

@@ -174,7 +174,7 @@ class World {
   /// rest.
   std::pair<std::uint32_t, std::uint32_t> own_particles_;  ///< the first, and the one after the last
   std::vector<std::uint32_t> own_bodies_;
-  /// A body that another process advances: how it was when that last told.
+  /// A body that another process advances: its state in the last message of that process.
   struct Remote_body {
     std::vector<Point<D>> positions;
     std::vector<std::uint32_t> cells;

@@ -93,7 +93,7 @@ Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 
 /// Computes the time, point and normal of a contact of the motion from a to b, if the walk omitted them
 /// (Walk_options::locates_contact); otherwise it changes nothing.
-/// Cost: 0.2 us, more if only exact numbers tell how the time is rounded.
+/// Cost: 0.2 us, more if only exact numbers decide how the time is rounded.
 template <int D>
 void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Contact<D>& contact);
 

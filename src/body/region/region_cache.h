@@ -122,7 +122,7 @@ class Region_cache {
   std::uint32_t search_backoff_ = 0;  ///< steps until a region is looked for that holds all positions
   std::uint32_t target_backoff_ = 0;  ///< the same for targets, while all positions are held
   std::uint32_t next_backoff_ = 4;    ///< steps if that finds none
-  double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next region is asked to hold
+  double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next region is to hold
   std::uint32_t anchor_vertex_ = 0;
 };
 

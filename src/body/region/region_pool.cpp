@@ -126,7 +126,7 @@ void Region_pool<D>::stay_in(std::uint32_t vertex, int region, const Point<D>& p
   known = kept;
 }
 
-/// True if a region holds a vertex and its neighbours: then they know it.
+/// True if a region holds a vertex and its neighbours: then it is listed for them.
 template <int D>
 bool Region_pool<D>::take_in(std::uint32_t vertex, int region, std::span<const Point<D>> positions,
                              const Body_topology& topology) {

@@ -17,13 +17,13 @@
 
 namespace cellwalk::detail {
 
-/// Each vertex knows some of the regions that hold its position.
+/// Each vertex has a list of some of the regions that hold its position.
 template <int D>
 class Region_pool {
  public:
   Region_pool(std::size_t vertices, const Body_certificates& certificates);
 
-  /// True if regions of parts of the body are used: it is large enough, and it is asked for.
+  /// True if regions of parts of the body are used: it is large enough, and the certificates include them.
   bool is_used() const { return is_used_; }
   /// True if some region is known to hold the vertex.
   bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }

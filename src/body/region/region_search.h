@@ -114,7 +114,7 @@ class Region_search {
   bool visit(Cell cell) {
     const std::size_t blocks = snapshot_.block_count(cell);
     for (std::size_t begin = 0; begin < blocks; begin += blocks_at_once) {
-      // A bit a facet; lanes without one are met where the planes say nothing.
+      // A bit a facet; lanes without one are met where the planes decide nothing.
       std::uint64_t met = 0, walls = 0;
       if (!is_mapped_) map_box();
       const std::size_t end = std::min(blocks, begin + blocks_at_once);

@@ -28,8 +28,8 @@ std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& count
 /// \throw Error(code) naming the face
 [[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code);
 
-/// Before faces are swept after moves that left them alone: registers them all, so all that they are asked
-/// about is needed.
+/// Before faces are swept after moves that left them alone: registers them all, for which all vertices and
+/// edges are needed.
 /// \throw Error(usage) if a wall pierces one
 void take_up_faces(Body_state<3>& body, Body_counts& counts);
 

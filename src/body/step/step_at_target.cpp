@@ -189,7 +189,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
       return tried;
     }
   }
-  // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
+  // Planes alone prove that nothing is touched; where a sign was computed, walls are tested.
   const bool is_apart = body_.is_apart && signs() == signs_before;
   if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =

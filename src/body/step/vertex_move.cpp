@@ -13,7 +13,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first
+/// As is_before(), but among contacts of several edges the half-facet does not count: ties go to the first
 /// edge.
 template <int D>
 bool meets_before(const Contact<D>& a, const Contact<D>& b) {

@@ -17,7 +17,7 @@ inline constexpr std::size_t signal_count = NSIG;
 /// meaning. Not a closed pipe and the limit of file sizes, which are errors of writing.
 bool ends_programs(int signal);
 
-/// True if a signal tells of a defect.
+/// True if a signal reports a defect.
 bool is_crash(int signal);
 
 /// Thrown by Interruption::check(); the handler cleans up and ends the program by the signal.
@@ -49,8 +49,8 @@ class Interruption {
   std::array<Signal_handler, signal_count> before_{};
 };
 
-/// Ends the program as the signal would have, without a dump of its memory where others want it to end. Safe
-/// in a signal handler, after which it ends.
+/// Ends the program as the signal would have, without a dump of its memory where others end it. Safe in a
+/// signal handler, after which it ends.
 void raise_at_last(int signal);
 
 /// The same elsewhere. Does not return.

@@ -34,10 +34,10 @@ struct Stage_state {
 };
 Stage_state state_of(const Stage& stage);
 
-/// Bytes of main memory that this process uses; 0 if the system does not tell.
+/// Bytes of main memory that this process uses; 0 if the system does not report it.
 std::uint64_t memory_in_use();
 
-/// Seconds: some eleven days. Clocks cannot wait for as long as a double can tell.
+/// Seconds: some eleven days. Clocks cannot wait for as long as a double can express.
 inline constexpr double longest_log_interval = 1e6;
 
 /// While it lives, the stage that runs is written every so often, and each stage once more when it ends. A

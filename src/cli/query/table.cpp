@@ -111,7 +111,7 @@ std::size_t first_row(Ranks& ranks, std::size_t rows) {
   return from_message<std::vector<std::size_t>>(shared)[ranks.rank()];
 }
 
-/// The points of the row of which a repro file or a picture is wanted, on the first rank; none if none is.
+/// The points of the row of which a repro file or a picture is requested, on the first rank; none if none is.
 /// \throw Error(usage) if there is no such valid row, before anything is answered
 template <int D, std::size_t N>
 std::optional<std::array<Point<D>, N>> wanted_row(const Query_options& options, Ranks& ranks,

@@ -22,7 +22,7 @@ struct Run_options {
   std::string json;    ///< where the report goes as well; empty: nowhere
   std::vector<std::string> changes;
   std::string scene_text;   ///< with the changes
-  std::uint32_t steps = 0;  ///< 0: as many as the scene says
+  std::uint32_t steps = 0;  ///< 0: as many as in the scene
   std::size_t threads = 0;  ///< 0: as many as there are cores
   bool force = false;
   Body_options body;

@@ -44,7 +44,7 @@ struct Run_input {
 /// \throw Error as World, naming the scene
 template <int D>
 World<D> make_world(const Run_input<D>& input, const std::vector<Body_soup<D>>& shapes);
-/// When the first rank has to know where everything is.
+/// The steps after which the first rank needs all positions.
 template <int D>
 State_times state_times(const Run_input<D>& input, const World<D>& world);
 

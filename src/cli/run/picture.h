@@ -30,7 +30,7 @@ class Run_picture {
   void record(const World<D>& world);
 
   /// Where there is more to draw than the bound allows, round shapes get fewer sides, and then a share of
-  /// them is drawn; the caption says how large it is.
+  /// them is drawn; the caption contains this share.
   drawing::Drawing draw(const World<D>& world, const Scene<D>& scene, std::string caption) const;
 
   template <class Archive>

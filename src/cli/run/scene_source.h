@@ -11,7 +11,7 @@
 namespace cellwalk::cli {
 
 struct Scene_source {
-  std::string name;  ///< as errors say it
+  std::string name;  ///< as in messages of errors
   std::string text;  ///< JSON, maybe with comments
   Any_scene scene;
 };

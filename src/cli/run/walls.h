@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walls that move in a run: by a pulsation, or as a table says.
+// Walls that move in a run: by a pulsation, or by a table.
 #ifndef CELLWALK_CLI_RUN_WALLS_H
 #define CELLWALK_CLI_RUN_WALLS_H
 
@@ -95,7 +95,7 @@ class Run_walls {
   std::optional<Wall_relaxation> relaxation_;
   Relax_options relax_options_;
   Relax_report relaxed_;     ///< operations of all steps
-  std::uint64_t moves_ = 0;  ///< of points, asked for
+  std::uint64_t moves_ = 0;  ///< of points, requested
   std::array<std::uint64_t, move_end_names.size()> ends_{};
   std::uint64_t hits_ = 0;
   Reshape_counts counts_;

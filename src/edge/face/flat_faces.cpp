@@ -231,8 +231,8 @@ bool moves_in_its_plane(const Vertex_path<3>& path, const Point<3>& q, const Poi
 }
 
 /// With all edges, and all faces that move off their plane; none if walls part nothing. Where an edge has no
-/// face, its chain says in which wedge it is, also if it lies in a wall or in the line of the way; and that
-/// was followed from the cells through which p walks.
+/// face, its chain determines its wedge, also if it lies in a wall or in the line of the way; and that was
+/// followed from the cells through which p walks.
 std::optional<Ridge_wedges> wedges_on_way(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                                           std::span<const Edge_at_vertex> edges,
                                           std::span<const Face_at_vertex> faces, Face_counts& counts) {

@@ -155,7 +155,7 @@ std::vector<Half_facet> Boundary_index<D>::meeting(std::span<const Point<D>> poi
 }
 
 /// Parts the hulls of two sets of corners, if need be with corners that stay where they are instead of in
-/// their zones, and lessens the radius of the way as that asks for.
+/// their zones, and lessens the radius of the way accordingly.
 template <int D>
 bool Boundary_index<D>::part(std::span<const Point<D>> points, const Zoned_move<D>& move,
                              std::span<const Corner> low, std::span<const Corner> high, bool is_one_facet) {
@@ -176,7 +176,7 @@ bool Boundary_index<D>::part(std::span<const Point<D>> points, const Zoned_move<
 }
 
 /// Parts the facets at a vertex from all others on its way, and within a radius of its end.
-/// \param stops if true, nothing more is asked once facets were found that cannot be parted
+/// \param stops if true, the search ends once facets were found that cannot be parted
 template <int D>
 void Boundary_index<D>::find_way(std::span<const Point<D>> points, const Zoned_move<D>& move, bool stops) {
   way_.point = move.vertex;

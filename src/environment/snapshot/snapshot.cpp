@@ -47,7 +47,7 @@ Half_facet Snapshot<D>::opposite(Half_facet f) const {
   const Cell other = neighbour(f);
   if (other == Cell::none) return Half_facet::none;
   const Cell own = cell_of(f);
-  // Of two cells that share one facet, the links tell without a look at points.
+  // Of two cells that share one facet, the links decide without a look at points.
   Half_facet only = Half_facet::none;
   bool is_only = true;
   for (std::size_t block = 0; block < block_count(other); ++block) {

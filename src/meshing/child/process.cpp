@@ -22,7 +22,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// How often a process is looked at where the system does not tell of its end.
+/// The interval at which a process is tested where the system does not report its end.
 constexpr int longest_unwatched = 5;  // milliseconds
 
 /// The files and signals that a process begins with.

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// How long nobody is asked whether to go on.
+/// The longest time between two tests whether to go on.
 constexpr std::chrono::milliseconds longest_silence{100};
 /// Bytes of a complaint that are read, and those that are shown.
 constexpr std::size_t longest_complaint = 4096, longest_shown = 160;

@@ -143,7 +143,7 @@ double Blade_side<D>::side(const Point<D>& x) const {
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Vector<D> off = x - nearest_on(pieces_[i], normals_[i], x);
     const double distance = length(off), height = dot(off, normals_[i]);
-    constexpr double tie = 1e-9;  // of pieces that are equally near, the one that x lies farthest off tells
+    constexpr double tie = 1e-9;  // of pieces that are equally near, the one that x lies farthest off decides
     if (distance > (1 + tie) * least) continue;
     if (distance >= (1 - tie) * least && std::abs(height) <= std::abs(result)) continue;
     least = std::min(least, distance);

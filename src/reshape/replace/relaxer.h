@@ -15,7 +15,7 @@ namespace cellwalk::detail {
 template <int D>
 class Relaxer {
  public:
-  /// \param move moves a vertex, and says whether it arrived
+  /// \param move moves a vertex, and returns whether it arrived
   Relaxer(Environment<D>& environment, Replacer<D>& replacer, const Relax_options& options,
           std::function<bool(std::uint32_t, const Point<D>&)> move);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// How far a contact with a body asks a wall to yield.
+// The yield of a wall that a contact with a body requires.
 #ifndef CELLWALK_SIMULATION_BODIES_CONTACT_YIELD_H
 #define CELLWALK_SIMULATION_BODIES_CONTACT_YIELD_H
 

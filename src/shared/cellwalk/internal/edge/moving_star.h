@@ -94,7 +94,7 @@ class Moving_star {
   std::uint32_t vertex_;
   Point<D> from_;
   std::vector<Cell> cells_;  ///< ascending
-  /// A hash table of them. Which facets have the vertex is found out when it is asked for.
+  /// A hash table of them. The facets that have the vertex are found when they are needed.
   struct Slot {
     Cell cell = Cell::none;
     std::uint32_t known = 0, moving = 0;  ///< a bit for each of the first facets

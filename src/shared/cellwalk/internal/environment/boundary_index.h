@@ -48,7 +48,7 @@ class Boundary_index {
   /// Cost: a comparison while the point stays in its zone; else a few us.
   bool is_way_free(std::span<const Point<D>> points, std::uint32_t point, const Point<D>& target);
   /// A point of the boundary was moved.
-  /// Cost: nothing while it stays in its zone, little if is_way_free() was just asked; else a few us.
+  /// Cost: nothing while it stays in its zone, little if is_way_free() was just called; else a few us.
   void follow(std::span<const Point<D>> points, std::uint32_t point);
 
  private:

@@ -70,7 +70,7 @@ class Edits_since {
 template <int D>
 bool was_passable(const Snapshot<D>& snapshot, const Edits_since& edits, Half_facet facet);
 
-/// The last half a million changes of facets, and as many new cells, at least. Of compactions it knows the
+/// The last half a million changes of facets, and as many new cells, at least. Of compactions it contains the
 /// last one.
 class Edit_log {
  public:

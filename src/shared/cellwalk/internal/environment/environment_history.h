@@ -40,8 +40,8 @@ struct Environment_history {
 template <int D>
 Environment_history history_of(const Environment<D>& environment);
 
-/// \pre the environment is a compiled copy of the one with that history, and nothing was asked of it yet; nor
-///      is it moved afterwards, as clusters of cells stay behind then
+/// \pre the environment is a compiled copy of the one with that history, and was not queried yet; nor is it
+///      moved afterwards, as clusters of cells stay behind then
 /// \throw Error(input) for a history that is not of this environment
 template <int D>
 void follow_history(Environment<D>& environment, const Environment_history& history);

@@ -15,7 +15,8 @@
 
 namespace cellwalk::detail {
 
-/// The points of a facet are distinct. They are not copied: loop_of(n) tells those of the facet entered as n.
+/// The points of a facet are distinct. They are not copied: loop_of(n) returns those of the facet entered as
+/// n.
 class Facet_table {
  public:
   /// \param most the largest number of facets

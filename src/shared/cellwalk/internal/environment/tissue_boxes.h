@@ -22,7 +22,7 @@ class Snapshot;
 
 namespace cellwalk::detail {
 
-/// The boxes of a snapshot, each made when it is first asked for. A copy has none yet.
+/// The boxes of a snapshot, each made when it is first needed. A copy has none yet.
 /// Thread safety: const members may be called from any number of threads; one at a time searches.
 template <int D>
 class Tissue_boxes {

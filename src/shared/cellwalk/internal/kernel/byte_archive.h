@@ -3,8 +3,8 @@
 // are saved and taken up again, and for messages among processes.
 //
 // A class has `template <class Archive> void archive(Archive& a) { a(first_, second_, ...); }`, or there is a
-// function visit_parts(a, value) in its namespace or in detail. Archive::is_reading tells the directions
-// apart.
+// function visit_parts(a, value) in its namespace or in detail. Archive::is_reading distinguishes the
+// directions.
 #ifndef CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 #define CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 

@@ -35,7 +35,7 @@ template <int D>
 Fraction fraction_of(const Crossing<D>& crossing);
 
 /// \pre a and b lie strictly on different sides
-/// Cost: 0.2 us, more if only exact arithmetic tells which double is the greatest that is not later.
+/// Cost: 0.2 us, more if only exact arithmetic finds the greatest double that is not later.
 template <int D>
 Exact_time to_time(const Crossing<D>& crossing);
 

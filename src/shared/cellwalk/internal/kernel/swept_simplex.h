@@ -75,7 +75,7 @@ class Swept_simplex {
 
   /// True if the wall meets the set after it has begun to move, elsewhere than in the hull of its still
   /// corners. A wall that moves off a set that it touched does not.
-  /// Cost: some 20 signs; exact numbers if no plane of a facet of K, nor that of the set, tells.
+  /// Cost: some 20 signs; exact numbers if no plane of a facet of K, nor that of the set, decides.
   bool reaches(std::span<const Point<D>> feature, Predicate_counts& counts) const;
 
  private:
