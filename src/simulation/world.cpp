@@ -88,7 +88,7 @@ std::vector<Change_outcome> World<D>::change(Environment<D>& environment, Change
   return made;
 }
 
-/// Cells were replaced: those of contacts may be gone, or their names those of others.
+/// Cells were replaced: the cells of contacts may be gone, or others may have their names.
 template <int D>
 void World<D>::forget_cells() {
   for (Run_contact<D>& met : contacts_) {

@@ -13,9 +13,9 @@ namespace cellwalk {
 /// Moves a particle to a point near a contact for which the complete move from where it stands is found free.
 /// Tried in this order, which is that of bodies: the exact contact point with each coordinate rounded up or
 /// down, along the normal of the contact first; that point rounded towards where the particle stands, shifted
-/// along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at time (1 - 2^-k) of
-/// the contact's, k = 20 .. 1; where it stands.
-/// \pre contact is that of moving this particle to `target`, see vertex_contact()
+/// along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at (1 - 2^-k) times
+/// the time of the contact, k = 20 .. 1; where it stands.
+/// \pre the contact comes from a move of this particle to `target`, see vertex_contact()
 /// Returns true if the particle moved.
 /// Cost: nearly always one walk, and some rational arithmetic, at most 39 walks.
 template <int D>

@@ -50,7 +50,7 @@ template <int D>
 struct Chain_result {
   Chain chain;
   /// If set, there is no chain: a wall blocks the segment, at contact->time from p to q. The time 1 means
-  /// that it leads to q on a different side of the walls there than that of q.
+  /// that it leads to q on another side of the walls there.
   std::optional<Contact<D>> contact;
   /// The segment continues along a wall from its rim, and has chains on both sides of it.
   bool has_choice = false;
@@ -93,10 +93,10 @@ Chain reversed(const Snapshot<D>& snapshot, const Chain& chain);
 template <int D>
 void prepend_crossed_facets(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed);
 
-/// True proves that the segment pq crosses the facets of a chain in order. Then the chain is that of pq, and
-/// if it was derived from that of another segment p'q before p moved (prepend_crossed_facets), the whole
-/// triangle p'pq is free. False is inconclusive: facets in whose plane the segment lies, and facets of a star
-/// crossed backwards in one point, are not examined. All signs are exact.
+/// True proves that the segment pq crosses the facets of a chain in order. Then the chain is valid for pq,
+/// and if it was derived from the chain of another segment p'q before p moved (prepend_crossed_facets), the
+/// whole triangle p'pq is free. False is inconclusive: facets in whose plane the segment lies, and facets of
+/// a star crossed backwards in one point, are not examined. All signs are exact.
 /// Cost: two signs a facet and one for each of its ridges.
 template <int D>
 bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, const Point<D>& q,

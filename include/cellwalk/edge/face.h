@@ -93,8 +93,9 @@ struct Face_registration {
 /// Finds the supporting walls of a face at its current position, and a wall that pierces it (invariant I3).
 /// \param chains the chains of its edges
 /// \param known supporting walls to keep if the edges allow it; those of a valid face are found again
-/// Degenerate cases: a face on walls is on the side of its edges; on membranes strictly inside it, on that of
-/// `known`, otherwise on that towards (e, e^2, e^3), e small, which depends on the geometry alone.
+/// Degenerate cases: a face on walls is on the side of its edges; on membranes strictly inside it, on the
+/// side of `known`, otherwise on the side towards (e, e^2, e^3), e small, which depends on the geometry
+/// alone.
 /// Cost: some us if walls are near, up to milliseconds if it lies in their plane.
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                                 const Particle<3>& r, const Face_chains& chains, Face_counts& counts,

@@ -31,7 +31,7 @@ struct Compiled_environment {
   Certificate certificate;     ///< of when the image was written
   Groups<D> groups;
 };
-/// of_dimension<3>(any) is that of three dimensions, or an Error.
+/// of_dimension<3>(any) is the one of three dimensions, or an Error.
 using Any_compiled_environment = std::variant<Compiled_environment<2>, Compiled_environment<3>>;
 
 /// True if bytes begin as those of an image do.

@@ -120,7 +120,7 @@ class Environment {
   /// Body::register_again(), particles are located again, and a Locator is made anew. Until the next
   /// compaction the new names are kept for bodies, in 20 bytes a tetrahedron.
   /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
-  /// Cost: linear, about that of building; for a moment, the memory of both.
+  /// Cost: linear, about as much as building; for a moment, the memory of both.
   Compaction compact();
 
   /// All cells that have a point, solid ones too; of a pinched point part after part. Works without the map.
@@ -161,8 +161,8 @@ class Environment {
   /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
   /// Names of cells and facets are kept; the loop of a facet may start at another vertex. Works without the
   /// map. Bodies and particles are not looked at: see Reshaping for that.
-  /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near
-  /// them; the first time linear in the number of facets, as where it goes far out of all others.
+  /// Cost: about 2 us for each cell around the vertex; on the boundary also the cost of the boundary facets
+  /// near them; the first time linear in the number of facets, as where it goes far out of all others.
   void move_vertex(std::uint32_t point, const Point<D>& position);
 
   /// Splits a cell into the star of a new point strictly inside it, with one cell for each facet. Returns the

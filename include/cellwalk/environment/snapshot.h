@@ -184,7 +184,8 @@ class Snapshot {
   void set_impassable(Half_facet f, bool wall);
   /// Moves a point; call update_geometry() for all cells that contain it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
-  /// The index that the next new point gets: that of the lowest point removed, or that after the last one.
+  /// The index that the next new point gets: the index of the lowest point removed, or the one after the
+  /// last.
   std::uint32_t next_point() const {
     return free_points_.empty() ? static_cast<std::uint32_t>(points_.size()) : *free_points_.begin();
   }

@@ -20,7 +20,7 @@
 
 namespace cellwalk {
 
-/// of_dimension<3>(any) is that of three dimensions, or an Error.
+/// of_dimension<3>(any) is the one of three dimensions, or an Error.
 using Any_environment = std::variant<Environment<2>, Environment<3>>;
 /// Of the same dimension.
 using Any_groups = std::variant<Groups<2>, Groups<3>>;

@@ -48,7 +48,7 @@ struct Move_options {
 };
 
 /// Answers a motion from one point to another. A start on a wall with free space on several sides may belong
-/// to each of them: the side on which the motion gets furthest is chosen, in ties that with the cell of
+/// to each of them: the side on which the motion gets furthest is chosen, in ties the one with the cell of
 /// lowest index. With an exact kernel the time of a contact is exact; otherwise it is that of the walk,
 /// rounded.
 /// \pre the locator is that of the snapshot; Touch::stop only with the exact kernel

@@ -225,7 +225,7 @@ void Working_folder::lock() {
   throw Error(Error_code::usage, shown() + ": another process runs there: wait until it ends");
 }
 
-/// Its name as that of the destination was given, for messages.
+/// Its name in the form in which the destination was given, for messages.
 std::string Working_folder::shown() const {
   const fs::path given = name_.has_filename() ? name_ : name_.parent_path();
   const fs::path last = given.filename();

@@ -119,7 +119,8 @@ class Motion_in_plane {
     for (const Face_side& side : sides_of(chains, path_.to, q, r)) search.follow(side);
   }
 
-  /// Those of some half-facets that have inner points on the way of p or, for an edge in its line, of that.
+  /// The given half-facets that have inner points on the way of p or, for an edge in its line, on the way of
+  /// the edge.
   std::vector<Half_facet> along(std::vector<Half_facet> halves, const std::size_t* edge) const {
     std::erase_if(halves, [&](Half_facet f) {
       const Cell_view<3> cell = snapshot_.view(snapshot_.cell_of(f));

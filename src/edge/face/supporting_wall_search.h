@@ -40,7 +40,7 @@ class Supporting_wall_search {
   Half_facet piercing() const { return piercing_; }
   /// The half-facets of walls on the sides that are determined.
   std::vector<Half_facet> taken() const;
-  /// Those of all walls whose cells are on a side of the plane.
+  /// The half-facets of all walls whose cells are on a side of the plane.
   std::vector<Half_facet> halves_at(int side) const;
   /// Those that the face has under it in the end. Groups without a side get the fixed one, as far as walls
   /// allow.

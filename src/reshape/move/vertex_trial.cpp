@@ -117,8 +117,8 @@ bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star, std::span<const M
   return true;
 }
 
-/// Where something is not free because of its sides of walls: a vertex of it that keeps its cell may take
-/// another side than that of the cell. Then all vertices of the body are followed by the choices to come.
+/// Where something is not free because of its sides of walls: a vertex of it that keeps its cell may take a
+/// side away from its cell. Then all vertices of the body are followed by the choices to come.
 template <int D>
 void Vertex_trial<D>::follow_kept(const Moving_star<D>& star,
                                   std::initializer_list<const Moved_vertex*> vertices) {

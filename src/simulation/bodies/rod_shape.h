@@ -29,7 +29,7 @@ struct Rod_state {
   double rest_before(std::size_t vertices, std::size_t i) const;
   /// The vertex, or the entry, that lies behind it.
   Point<D> before(std::span<const Point<D>> vertices, std::size_t i) const;
-  /// From there to the vertex; where it has not entered, that of the guide.
+  /// The direction from there to the vertex; where it has not entered, the direction of the guide.
   Vector<D> tangent(std::span<const Point<D>> vertices, std::size_t i) const;
 };
 

@@ -67,7 +67,7 @@ class Moving_star {
   /// True if a particle still lies in its cell: then it did so all the time, and met no wall.
   bool keeps_cell(const Particle<D>& p) const;
   /// True proves that an edge whose ends kept their cells is free and keeps its chain.
-  /// \param facets those of its chain that have the vertex
+  /// \param facets the facets of its chain that have the vertex
   bool keeps_facets(const Chain& facets, const Point<D>& p, const Point<D>& q) const;
   /// The same just after the vertex began to move.
   bool keeps_cell_at_start(const Particle<D>& p) const;

@@ -76,7 +76,7 @@ class Edit_log {
  public:
   /// Makes room for some sides of facets that are noted next, which then takes no memory.
   void reserve_turned(std::size_t sides);
-  /// A facet, both sides of it, was opened or closed; the epoch is that of after the edit.
+  /// A facet, both sides of it, was opened or closed; the epoch is the one after the edit.
   void note_turned(std::uint64_t epoch, Half_facet one, Half_facet other);
   /// \param of the cell that they are parts of, or Cell::none
   void note_new(std::uint64_t epoch, std::span<const Cell> cells, Cell of);

@@ -39,7 +39,7 @@ Fraction fraction_of(const Crossing<D>& crossing);
 template <int D>
 Exact_time to_time(const Crossing<D>& crossing);
 
-/// The time rounded as that of to_time() is, in [0,1]; 0 and 1 only if exact.
+/// The time, rounded like the result of to_time(), in [0,1]; 0 and 1 only if exact.
 /// \pre a and b do not lie strictly on the same side
 template <int D>
 double crossing_time(const Crossing<D>& crossing);
@@ -62,8 +62,8 @@ struct Exact_fraction {
   std::variant<Fraction, Crossing<2>, Crossing<3>> source;
 };
 
-/// Coordinate by coordinate the greatest doubles that are not above, and the least that are not below, those
-/// of a point of a motion.
+/// For each coordinate of a point of a motion, the greatest double that is not above it, and the least that
+/// is not below.
 template <int D>
 struct Point_bounds {
   Point<D> below, above;
