@@ -15,6 +15,11 @@ namespace cellwalk {
 /// down, along the normal of the contact first; that point rounded towards where the particle stands, shifted
 /// along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at (1 - 2^-k) times
 /// the time of the contact, k = 20 .. 1; where it stands.
+/// \param snapshot in which the particle lies
+/// \param particle moved to the point that is found
+/// \param target the end of the blocked move
+/// \param contact the first one on the way to `target`, with its exact time
+/// \param counts raised by the walks
 /// \pre the contact comes from a move of this particle to `target`, see vertex_contact()
 /// Returns true if the particle moved.
 /// Cost: nearly always one walk, and some rational arithmetic, at most 39 walks.
@@ -36,6 +41,12 @@ struct Wall_response {
 /// or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
 /// appended to `met`, their times as shares of the unit of time: the first is exact, those after it follow
 /// from positions that are rounded.
+/// \param snapshot in which the particle lies
+/// \param particle satisfies I1
+/// \param velocity in units of the environment per unit of time
+/// \param response restitution and friction in [0,1]
+/// \param met receives the contacts
+/// \param counts raised by the walks
 /// \pre response is in range
 /// \throw Error(usage) as move(); Error(input) if the point where it would be is not finite; nothing changes
 template <int D>

@@ -70,9 +70,13 @@ struct Face_result {
 ///
 /// Walls that cross an edge of the face come through it too, and are reported at the same time as by
 /// sweep_triangle(), or earlier; walls that hit only the edges (in the plane of the face) are not reported.
+/// \param snapshot in which the face lies
+/// \param path the path of p, which may be blocked
+/// \param q,r the corners that stand still
 /// \param supporting_walls the supporting walls of the face before the move
 /// \param chains the chains of its edges after the move; if one is null, only a contact is searched, and no
 ///        supporting walls are returned
+/// \param counts raised by the sweep
 /// \pre the sweeps of the edges pq and pr are free, at least up to the time of a contact
 /// Degenerate cases: all positions of walls relative to the face. A face that moves in its own plane is free
 /// if its edges are, and if walls in the plane that are joined under the area that it sweeps have it and its
@@ -91,7 +95,10 @@ struct Face_registration {
 };
 
 /// Finds the supporting walls of a face at its current position, and a wall that pierces it (invariant I3).
+/// \param snapshot in which the face lies
+/// \param p,q,r the corners, with their cells
 /// \param chains the chains of its edges
+/// \param counts raised by the registration
 /// \param known supporting walls to keep if the edges allow it; those of a valid face are found again
 /// Degenerate cases: a face on walls is on the side of its edges; on membranes strictly inside it, on the
 /// side of `known`, otherwise on the side towards (e, e^2, e^3), e small, which depends on the geometry
