@@ -24,8 +24,8 @@ namespace cellwalk::python {
 template <int D>
 class Session {
  public:
-  /// \throw Error(usage) if this thread has the world open, for listed bodies or particles older than an edit,
-  ///        and as Reshaping; Error(input) as Environment::thaw()
+  /// \throw Error(usage) if this thread has the world open, for listed bodies or particles that are older
+  ///        than an edit, and as Reshaping; Error(input) as Environment::thaw()
   Session(World<D>& world, const Listed& listed)
       : opened_(world),
         residents_(listed, thawed().snapshot()),
