@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies of either dimension for Python: the checks of their arrays, and their steps under a lock.
 #include "any_body.h"
 
 #include <cellwalk/body/saved_body.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What Python calls Body.
+// The class Body of Python.
 #ifndef CELLWALK_PYTHON_ANY_BODY_H
 #define CELLWALK_PYTHON_ANY_BODY_H
 
@@ -19,7 +19,7 @@
 
 namespace cellwalk::python {
 
-/// A body of either dimension, and what its moves did.
+/// A body of either dimension, and the counts of its moves.
 class Any_body {
  public:
   Any_body(Held_world environment, const py::object& points, const py::object& edges,

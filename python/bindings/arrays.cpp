@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The checks of types, shapes and indices of NumPy arrays, with errors that name the argument.
 #include "arrays.h"
 
 #include <cellwalk/kernel/error.h>
@@ -8,7 +9,7 @@
 namespace cellwalk::python {
 namespace {
 
-/// Such as "float32 (10, 3)", or the type of what is no array.
+/// Such as "float32 (10, 3)", or the type of another object.
 std::string description(const py::handle& argument) {
   if (!py::isinstance<py::array>(argument))
     return std::string(py::str(py::type::of(argument).attr("__name__")));

@@ -22,7 +22,7 @@ namespace cellwalk::python {
 namespace py = pybind11;
 
 /// The rows of a C-contiguous, aligned float64 array of shape (N, columns); its first element and N.
-/// \throw TypeError that says what the argument is instead, and how to convert it
+/// \throw TypeError that names the type of the argument, and how to convert it
 std::pair<const double*, std::size_t> rows_of(const py::handle& argument, const char* name, int columns);
 
 /// The points of an array, without a copy.
@@ -63,8 +63,8 @@ py::array_t<T> to_array(std::vector<T>&& values) {
 
 [[noreturn]] void refuse_word(const std::string& word, const char* option, const std::string& words);
 
-/// What stands behind a word.
-/// \throw UsageError that names the words there are
+/// The meaning of a word.
+/// \throw UsageError that names the possible words
 template <class T>
 T choose(const std::string& word, const char* option,
          std::initializer_list<std::pair<const char*, T>> meanings) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The methods of Edits for Python, and selections of facets and cells by conditions.
 #include "bind_edits.h"
 
 #include <fmt/core.h>
@@ -15,7 +16,7 @@
 namespace cellwalk::python {
 namespace {
 
-/// What Python calls Selection.
+/// The class Selection of Python.
 struct Selected {
   py::array facets, cells;
 };

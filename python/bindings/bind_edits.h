@@ -9,7 +9,7 @@
 
 namespace cellwalk::python {
 
-/// Adds editing(), freeze(), the tables of facets and cells, and the classes of what they return.
+/// Adds editing(), freeze(), the tables of facets and cells, and the classes of their results.
 void bind_edits(pybind11::module_& module, Environment_class& environment);
 
 }  // namespace cellwalk::python

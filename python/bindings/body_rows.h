@@ -41,7 +41,7 @@ Body_contact_row<D> to_row(const Snapshot<D>& snapshot, const Contact<D>& contac
           static_cast<std::uint32_t>(contact.body)};
 }
 
-/// A row of the table of what blocks the vertices of a body.
+/// A row of the table of blocked vertices of a body.
 template <int D>
 struct Rejected_row {
   std::uint64_t edges, swept_edges;

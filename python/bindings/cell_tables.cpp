@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The layout of a row of a cell table, and the search for the facet or cell that a row names.
 #include "cell_tables.h"
 
 #include <fmt/core.h>

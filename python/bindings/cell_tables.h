@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facets and cells as arrays: tables of them, and what the rows of arrays name.
+// Facets and cells as arrays: tables of them, and the names in the rows of arrays.
 #ifndef CELLWALK_PYTHON_CELL_TABLES_H
 #define CELLWALK_PYTHON_CELL_TABLES_H
 
@@ -33,8 +33,8 @@ Selection<D> all_of(const Snapshot<D>& snapshot);
 /// A structured array.
 py::array to_array(const Cell_table& table);
 
-/// What an array names: rows of such a table, of contacts, or numbers. They are looked up when the world is
-/// held.
+/// The cells that an array names: rows of such a table, of contacts, or numbers. They are looked up when the
+/// world is held.
 class Named_cells {
  public:
   /// \param name of the argument

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Edits between the entry and the exit of a `with` block: arguments are checked before any change.
 #include "edits.h"
 
 #include <fmt/core.h>

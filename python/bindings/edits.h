@@ -19,13 +19,13 @@
 
 namespace cellwalk::python {
 
-/// What is open between the ends of a with statement. Made, used and destroyed without the interpreter, but
-/// may be destroyed with it.
+/// The edits that are open during a with statement. Made, used and destroyed without the interpreter, but may
+/// be destroyed with it.
 template <int D>
 class Session {
  public:
-  /// \throw Error(usage) if this thread has the world open, for what is listed but does not know of an edit,
-  ///        and as Reshaping; Error(input) as Environment::thaw()
+  /// \throw Error(usage) if this thread has the world open, for listed bodies or particles that are older
+  ///        than an edit, and as Reshaping; Error(input) as Environment::thaw()
   Session(World<D>& world, const Listed& listed)
       : opened_(world),
         residents_(listed, thawed().snapshot()),
@@ -46,7 +46,7 @@ class Session {
   Reshaping<D> reshaping_;
 };
 
-/// What forbids a change.
+/// A row of the table of residents that forbid a change.
 struct Held_row {
   std::uint32_t row, owner, feature;
   std::uint8_t body;
@@ -62,14 +62,14 @@ struct Cut_point_row {
 };
 static_assert(sizeof(Cut_point_row) == 32);
 
-/// What Python calls Changes.
+/// The class Changes of Python.
 struct Changes {
   py::array_t<bool> made;
   py::list reasons;
   py::array held_by;
 };
 
-/// What Python calls Replacement.
+/// The class Replacement of Python.
 struct Replaced {
   bool is_made;
   std::string reason;
@@ -78,13 +78,13 @@ struct Replaced {
   py::array held_by;
 };
 
-/// What Python calls CutReport.
+/// The class CutReport of Python.
 struct Cut_made {
   Cut_report report;
   py::array points;
 };
 
-/// What Python calls Edits: an environment that is open for edits of one thread, in a with statement.
+/// The class Edits of Python: an environment that is open for edits of one thread, in a with statement.
 class Edits {
  public:
   Edits(std::shared_ptr<Any_world> world, Listed listed)

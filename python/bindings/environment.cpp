@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Environments: from files, recipes and arrays; what they hold; questions about points and edges in no cell.
+// Environments: from files, recipes and arrays; their content; queries of points and edges without known
+// cells.
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/loading/generators.h>
 #include <cellwalk/loading/report.h>
@@ -158,7 +159,7 @@ void save(const Shared_world& self, const py::object& path) {
   const std::string name = py::str(path);
   const std::vector<std::byte> bytes = compiled_bytes(self);
   const py::gil_scoped_release released;
-  Any_compiled_environment copy = open_compiled_copy(bytes);  // which gives up what edits left unused
+  Any_compiled_environment copy = open_compiled_copy(bytes);  // without the memory that edits left unused
   std::visit(
       [&]<int D>(Compiled_environment<D>& compiled) {
         io::Atomic_file file(name);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The conversion of Python sequences to the bodies and particles that a Reshaping holds.
 #include "listed.h"
 
 #include <cellwalk/kernel/error.h>

@@ -18,20 +18,20 @@
 
 namespace cellwalk::python {
 
-/// What a call lists. Made with the interpreter, and keeps what is listed alive.
+/// The objects that a call lists. Made with the interpreter, and keeps them alive.
 struct Listed {
   std::vector<py::object> objects;
   std::vector<Any_body*> bodies;
   std::vector<Particles*> particles;
 };
 
-/// \throw TypeError for what is no body, or no particles, UsageError for what is listed twice, or lies in
-///        another environment
+/// \throw TypeError for objects that are no bodies, or no particles, UsageError for those that are listed
+///        twice, or lie in another environment
 Listed listed_of(const std::shared_ptr<Any_world>& world, const py::iterable& bodies,
                  const py::iterable& particles);
 
-/// Particles for a Reshaping, which wants all of them in free space: those in no cell are left out. In the
-/// end all are as the walls left them, and know of the moves.
+/// Particles for a Reshaping, which needs all of them in free space: those in no cell are left out. In the
+/// end all are as the walls left them, and have the new epoch.
 template <int D>
 class Located_particles {
  public:
@@ -70,7 +70,7 @@ class Located_particles {
 template <int D>
 class Listed_residents {
  public:
-  /// \throw Error(usage) for particles that do not know of a move of walls
+  /// \throw Error(usage) for particles that were not listed in a move of walls
   Listed_residents(const Listed& listed, const Snapshot<D>& snapshot) {
     for (const Particles* particles : listed.particles) particles->check_epoch(snapshot);
     for (Any_body* body : listed.bodies) residents_.bodies.push_back(&body->body<D>());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Environments from arrays, files and generators, built without the interpreter lock.
 #include "make_environment.h"
 
 #include <cellwalk/loading/generators.h>
@@ -30,7 +31,7 @@ Build_options to_build_options(const std::string& duplicates, bool split, bool s
   return {to_duplicates(duplicates), split, simplicial, /*keep_map=*/false};
 }
 
-/// Builds without the interpreter, and says what was changed.
+/// Builds without the interpreter, and reports the changes.
 template <int D>
 Shared_world build(Cell_soup<D> soup, const Build_options& options) {
   Build_report built;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The extension module cellwalk._cellwalk; python/cellwalk/__init__.py is what users import.
+// The extension module cellwalk._cellwalk; users import python/cellwalk/__init__.py.
 #include "module.h"
 
 #include <cellwalk/io/mesh_file.h>
@@ -57,7 +57,7 @@ void refuse_objects_of_the_base() {
   };
 }
 
-/// Objects without a value, made by `__new__` or asked before `__init__`, would get memory with nothing in it
+/// Objects without a value, made by `__new__` or used before `__init__`, would get memory with nothing in it
 /// where pybind11 passes them on: they raise instead.
 void refuse_objects_without_value(const py::module_& module) {
   for (const auto& [name, member] : py::dict(module.attr("__dict__"))) {

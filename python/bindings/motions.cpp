@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The properties of a batch of motions in Python, and its counts as dictionaries.
 #include "motions.h"
 
 #include <limits>

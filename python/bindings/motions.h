@@ -36,8 +36,8 @@ static_assert(sizeof(Contact_row<2>) == 5 * sizeof(double) + 16 &&
 using Contact_row_2 = Contact_row<2>;
 using Contact_row_3 = Contact_row<3>;
 
-/// What Python calls Motions. A small move takes a few nanoseconds, and memory that is written for the first
-/// time costs as much: what can be made when it is asked for is not written before.
+/// The class Motions of Python. A small move takes a few nanoseconds, and memory that is written for the
+/// first time costs as much: arrays that can be made when they are requested are not written before.
 struct Motions {
   py::array_t<std::uint8_t> status;
   py::array_t<std::uint32_t> cells;
@@ -47,7 +47,7 @@ struct Motions {
   /// Row and time of each contact; `contacts` belongs to the caller.
   std::vector<std::pair<std::size_t, double>> stops;
   py::array_t<std::uint32_t> handles;  ///< Snapshot's names of the cells; none where no motion was made
-  py::object cell = py::none(), time = py::none();  ///< made when they are asked for
+  py::object cell = py::none(), time = py::none();  ///< made when they are requested
 
   std::size_t size() const { return static_cast<std::size_t>(status.size()); }
   const py::object& cell_numbers();
@@ -92,7 +92,7 @@ struct Motion_rows {
   }
 };
 
-/// What a chunk of a batch adds.
+/// The contacts and counts that a chunk of a batch adds.
 template <int D, class Counts>
 struct Chunk {
   std::vector<Contact_row<D>> contacts;
@@ -118,7 +118,7 @@ py::dict to_dict(const Edge_counts& counts);
 
 /// Works a batch off: begin(reading) returns work(rows, chunk, first row, row after the last), which answers
 /// a chunk. The interpreter is free meanwhile.
-/// \param owner what guards the particles of the batch, or null
+/// \param owner the lock of the particles of the batch, or null
 template <class Counts, int D, class Begin>
 Motions run_batch(const std::shared_ptr<const Any_world>& world, std::mutex* owner, std::size_t rows,
                   int threads, const Begin& begin) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What Python calls Particles.
+// The class Particles of Python.
 #ifndef CELLWALK_PYTHON_PARTICLES_H
 #define CELLWALK_PYTHON_PARTICLES_H
 
@@ -19,8 +19,8 @@
 
 namespace cellwalk::python {
 
-/// The particles of an environment of either dimension. They know of the moves of its walls in which they
-/// were listed; after others they refuse to move, instead of missing a wall.
+/// The particles of an environment of either dimension. They follow the moves of its walls in which they are
+/// listed; after others they refuse to move, instead of missing a wall.
 class Particles {
  public:
   Particles(Held_world environment, const py::object& points, int threads);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The state of a pickled environment: its compiled bytes and its report.
 #include "pickling.h"
 
 #include <cellwalk/environment/compiled.h>

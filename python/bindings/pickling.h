@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Pickles: environments as the bytes of compiled ones, and what lies in them with its environment.
+// Pickles: environments as the bytes of compiled ones, and bodies and particles with their environment.
 #ifndef CELLWALK_PYTHON_PICKLING_H
 #define CELLWALK_PYTHON_PICKLING_H
 

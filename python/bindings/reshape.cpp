@@ -21,7 +21,7 @@
 namespace cellwalk::python {
 namespace {
 
-/// What Python calls WallMoves.
+/// The class WallMoves of Python.
 struct Wall_moves {
   py::array_t<std::uint32_t> point;
   py::array_t<std::uint8_t> end;
@@ -37,7 +37,7 @@ struct Reshape_words {
   int most_rounds, most_pushes, most_contacts;
 };
 
-/// What a call asks for: moves, or what they would come to.
+/// The request of a call: moves, or tests of moves.
 struct Reshape_request {
   Reshape_options options;
   bool only_tests = false;

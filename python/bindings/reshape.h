@@ -9,7 +9,7 @@
 
 namespace cellwalk::python {
 
-/// Adds reshape(), and the class of what it returns.
+/// Adds reshape(), and the class of its result.
 void bind_reshape(pybind11::module_& module, Environment_class& environment);
 
 }  // namespace cellwalk::python

@@ -9,10 +9,10 @@
 
 namespace cellwalk::python {
 
-/// Readers share, a writer is alone. A writer that waits is not overtaken: who comes to read later waits for
+/// Readers share, a writer is alone. A writer that waits is not overtaken: readers that come later wait for
 /// it. (A std::shared_mutex may let readers pass, and with some of them always there a writer never gets its
-/// turn.) So no thread may lock it a second time. Any thread may unlock it, since the last reference to what
-/// holds it may be dropped in any.
+/// turn.) So no thread may lock it a second time. Any thread may unlock it, since the last reference to its
+/// holder may be dropped in any.
 class Turn_lock {
  public:
   void lock() {
@@ -39,7 +39,7 @@ class Turn_lock {
 
  private:
   std::mutex turn_;   ///< of the one thread that may wait for the state; the others wait for their turn
-  std::mutex state_;  ///< of what follows
+  std::mutex state_;  ///< guards the members below
   std::condition_variable is_free_;
   std::size_t readers_ = 0;
   bool is_written_ = false;

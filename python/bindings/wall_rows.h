@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What came of walls that moved: arrays by row, and tables of what they met.
+// The results of walls that moved: arrays by row, and tables of their contacts.
 #ifndef CELLWALK_PYTHON_WALL_ROWS_H
 #define CELLWALK_PYTHON_WALL_ROWS_H
 
@@ -17,7 +17,7 @@
 
 namespace cellwalk::python {
 
-/// A row of the tables of what walls met.
+/// A row of the tables of contacts of walls.
 template <int D>
 struct Wall_hit_row {
   double time;
@@ -52,7 +52,7 @@ class Wall_rows {
     }
   }
 
-  /// What a move came to, in place of what is there.
+  /// Writes the result of a move over its row.
   void set(const Vertex_result<D>& result) {
     const std::uint32_t row = rows_.at(result.point);
     position[row] = result.position;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// An environment as Python holds it: any number of particles, bodies and threads share it. They ask it at the
-// same time, or one of them moves its walls or edits it while the others wait.
+// An environment as Python holds it: any number of particles, bodies and threads share it. They query it at
+// the same time, or one of them moves its walls or edits it while the others wait.
 #ifndef CELLWALK_PYTHON_WORLD_H
 #define CELLWALK_PYTHON_WORLD_H
 
@@ -29,15 +29,14 @@
 
 namespace cellwalk::python {
 
-/// An environment that can be asked where points are. It stays where it is: the locator refers to the
-/// snapshot.
+/// An environment in which points can be located. It stays where it is: the locator refers to the snapshot.
 ///
-/// What edits change is reached through Reading, Looking, Changing and Opened only. Each sets the interpreter
-/// free before it waits for a lock, so that none that has the interpreter waits for one. All take the locks
-/// in one order (that of a body or of particles, that of the world, that of its locator), and all but Opened
-/// give them back before they wait for the interpreter again. An Opened lives on while its thread runs
-/// Python; that thread takes no other lock of this world meanwhile, but is refused. So no threads wait for
-/// each other.
+/// Anything that edits change is reached through Reading, Looking, Changing and Opened only. Each sets the
+/// interpreter free before it waits for a lock, so that none that has the interpreter waits for one. All take
+/// the locks in one order (that of a body or of particles, that of the world, that of its locator), and all
+/// but Opened give them back before they wait for the interpreter again. An Opened lives on while its thread
+/// runs Python; that thread takes no other lock of this world meanwhile, but is refused. So no threads wait
+/// for each other.
 template <int D>
 class World {
  public:
@@ -66,13 +65,13 @@ class World {
   class Reading {
    public:
     explicit Reading(const World& world) : world_(checked(world)), lock_(world.lock_) {}
-    /// \param owner what guards a body or particles that are used meanwhile
+    /// \param owner the lock of a body or of particles that are used meanwhile
     Reading(const World& world, std::mutex& owner)
         : world_(checked(world)), owner_(owner), lock_(world.lock_) {}
 
     const Environment<D>& environment() const { return world_.environment_; }
     const Snapshot<D>& snapshot() const { return environment().snapshot(); }
-    /// What is left of the groups of the file.
+    /// The rest of the groups of the file after edits.
     Groups<D> groups() const { return world_.groups_.now(snapshot()); }
     /// Made anew if points moved since the last one. Not to be called from tasks of oneTBB.
     const Locator<D>& locator() const { return world_.current_locator(); }
@@ -94,7 +93,7 @@ class World {
       if (!world.is_open_here()) lock_ = std::shared_lock(world.lock_);
     }
     const Snapshot<D>& snapshot() const { return world_.environment_.snapshot(); }
-    /// What is left of the groups of the file.
+    /// The rest of the groups of the file after edits.
     Groups<D> groups() const { return world_.groups_.now(snapshot()); }
     /// The points for arrays. They are kept like the environment as long as points are not added.
     std::shared_ptr<const std::vector<Point<D>>> points() const {
@@ -219,26 +218,26 @@ class World {
   Environment<D> environment_;
   Lasting_groups<D> groups_;
   std::atomic<std::thread::id> opened_by_{};
-  mutable std::mutex making_;  ///< of what follows
+  mutable std::mutex making_;  ///< guards the members below
   mutable Certificate certificate_;
   mutable std::uint64_t certified_;  ///< the epoch of the certificate
   mutable std::optional<Locator<D>> locator_;
   mutable std::uint64_t located_;  ///< the geometry epoch of the locator
-  /// What Python sees of the points, once asked for: edits may move those of the environment in memory.
+  /// The points that Python sees, once requested: edits may move those of the environment in memory.
   mutable std::shared_ptr<std::vector<Point<D>>> shown_;
   mutable std::uint64_t shown_at_ = 0;  ///< their geometry epoch
 };
 
 using Any_world = std::variant<World<2>, World<3>>;
 
-/// What Python calls Environment.
+/// The class Environment of Python.
 struct Shared_world {
   std::shared_ptr<Any_world> world;
   std::string report;  ///< JSON
 
   int dimension() const { return world->index() == 0 ? 2 : 3; }
 };
-/// What lies in an environment holds it like this, so that Python finds the same object again.
+/// Bodies and particles hold their environment like this, so that Python finds the same object again.
 using Held_world = std::shared_ptr<const Shared_world>;
 using Environment_class = pybind11::class_<Shared_world, std::shared_ptr<Shared_world>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// edit_script ENV OUT.ovm < SCRIPT: makes edits among bodies and particles in C++, and says of each
-// what test_edits_script.py has Python say.
+// edit_script ENV OUT.ovm < SCRIPT: makes edits among bodies and particles in C++, and prints the same of
+// each as test_edits_script.py does in Python.
 #include <cellwalk/body/body.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/environment_file.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The public functions of Body: they check their arguments, and steps within a region end here.
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>
@@ -171,7 +172,7 @@ void Body<D>::step(std::span<const Point<D>> targets, const Body_options& option
   detail::Body_state<D>& body = *state_;
   check_rule(options, body.topology);
   body.check_epoch();
-  // Pointers, since sizes would have to be divided by that of a point.
+  // Pointers, since sizes would have to be divided by the size of a point.
   if (body.positions.data() + targets.size() != std::to_address(body.positions.end())) [[unlikely]]
     refuse_target_count(targets.size(), body.positions.size());
   const auto* region = options.clearance && body.region.holds_body() ? body.region.region() : nullptr;

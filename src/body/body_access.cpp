@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The box that a body may reach, its cells, chains and supporting walls, read and written by edits.
 #include <cellwalk/internal/body/body_access.h>
 
 #include <utility>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Untested moves in regions free of walls, and the registration of stale vertices and edges afterwards.
 #include "body_state.h"
 
 #include <utility>
@@ -138,8 +139,8 @@ void Body_state<D>::give_region_up() {
   is_apart = false;  // walls may be put up next
 }
 
-/// Looks for a region that holds the body where it is and where it goes; what it does not hold is registered.
-/// True if it holds all.
+/// Looks for a region that holds the body where it is and where it goes; vertices outside of it are
+/// registered. True if it holds all.
 template <int D>
 bool Body_state<D>::renew_region(std::span<const Point<D>> targets, Body_counts& counts) {
   if (region.must_wait()) return false;
@@ -147,7 +148,7 @@ bool Body_state<D>::renew_region(std::span<const Point<D>> targets, Body_counts&
   const std::uint32_t anchor = region.anchor_vertex();
   refresh_vertex(anchor, counts);
   const auto found = region.search(*snapshot, particles[anchor], positions, targets, counts);
-  // What leaves the old region is registered while that is still there.
+  // Vertices that leave the old region are registered while that is still there.
   if (region.loses_vertices(found, positions))
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
       const bool is_outside = !found || !found->holds(positions[v]);
@@ -170,7 +171,7 @@ void Body_state<D>::spread_marks() {
 template <int D>
 inline void Body_state<D>::follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const {
   const Point<D>& position = positions[vertex];
-  // What the pool knows is out of date once all vertices were moved at once.
+  // The pool is out of date once all vertices were moved at once.
   const bool is_in_pool = !region.are_all_stale() && pool.holds(vertex);
   const Particle<D>& anchor = is_in_pool ? pool.region_of(vertex).anchor() : region.anchor();
   // A point strictly inside a cell is in no other one, whichever way it came. Else, between two points of the

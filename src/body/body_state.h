@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a registered body is made of, and how it is kept true: particles and chains that are stale are
-// registered anew where they are needed.
+// The state of a registered body, and its renewal: particles and chains that are stale are registered anew
+// where they are needed.
 #ifndef CELLWALK_BODY_BODY_STATE_H
 #define CELLWALK_BODY_BODY_STATE_H
 
@@ -34,7 +34,7 @@ struct Moved_chain {
   std::vector<Facet_corners<D>> corners;
 };
 
-/// What is found out of a move of one vertex before it is made. Kept for its memory only.
+/// The results of the tests of one move of a vertex, before it is made. Kept for its memory only.
 template <int D>
 struct Move_scratch {
   std::vector<Cell> visited;
@@ -48,7 +48,7 @@ struct Move_scratch {
   std::vector<Facet_corners<D>> corners_ahead, corners_behind;
   Relink_scratch<D> relink;
 
-  /// Room for the chains of so many edges.
+  /// Makes room for the chains of this number of edges.
   void take_up_chains(std::size_t edges) {
     if (chains.size() < edges) chains.resize(edges);
   }
@@ -109,8 +109,8 @@ struct Body_state {
     // Last, so that nothing needs to be saved over the call.
     std::memcpy(positions.data(), targets.data(), targets.size_bytes());
   }
-  /// Where that region does not: moves all in a new one, if there is one for all. Else what needs one by one
-  /// is prepared.
+  /// If that region does not hold all: moves all in a new one, if there is one for all. Else prepares moves
+  /// one by one.
   bool try_move_all_in_new_region(std::span<const Point<D>> targets, bool clearance, Body_counts& counts);
   /// Moves one vertex without a test, if the region allows it.
   bool try_move_in_region(std::uint32_t vertex, const Point<D>& target, Body_counts& counts) {
@@ -123,7 +123,7 @@ struct Body_state {
 
   /// Moves a particle of a stale vertex to where the vertex is.
   void follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const;
-  /// Registers what is stale.
+  /// Registers a vertex or an edge if it is stale.
   void refresh_vertex(std::uint32_t vertex, Body_counts& counts);
   void refresh_edge(std::uint32_t edge, Body_counts& counts);
   /// True if an edge is, or its other end.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bytes of a body, with tests that restored names, sizes and invariants are sound.
 #include <cellwalk/body/saved_body.h>
 #include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
@@ -23,7 +24,7 @@ constexpr std::array<char, 8> magic{'C', 'W', 'B', 'O', 'D', 'Y', '\r', '\n'};
 constexpr std::uint32_t version = 3;
 constexpr std::uint32_t byte_order = 0x01020304;
 
-/// What comes before the state.
+/// The bytes before the state.
 struct Head {
   std::array<char, 8> magic = detail::magic;
   std::uint32_t version = detail::version, byte_order = detail::byte_order, dimension = 0, unused = 0;
@@ -37,7 +38,7 @@ struct Head {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(Error_code::input, what); }
 
-/// Which environment a body lies in, as far as numbers tell.
+/// The numbers by which the environment of a body is recognised.
 template <int D>
 std::array<std::uint64_t, 5> identity(const Snapshot<D>& snapshot) {
   return {snapshot.epoch(), snapshot.geometry_epoch(), snapshot.half_facet_slots(), snapshot.cell_count(),
@@ -127,7 +128,7 @@ class Saved_body {
     if (!is_good) Byte_reader::refuse();
   }
 
-  /// Tests I1, I2 and I3, of a copy, as what is stale is registered for that.
+  /// Tests I1, I2 and I3, of a copy, since stale vertices and edges are registered for that.
   static void check_registration(const Body<D>& body) {
     Body<D> copy = body;
     Body_counts uncounted;

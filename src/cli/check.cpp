@@ -31,7 +31,7 @@ void check(const Check_options& options) {
         Facing_walls facing;
         const Certificate certificate =
             naming(options.environment, [&] { return environment.certify(&facing); });
-        // What was not compiled here may have been compiled wrongly.
+        // An environment that was compiled elsewhere may be wrong.
         if (loaded.is_compiled) naming(options.environment, [&] { check_compiled(environment); });
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         write_json(json, {{"environment", options.environment},

@@ -36,7 +36,7 @@ using cellwalk::Error_code;
 using cellwalk::Ranks;
 
 constexpr std::string_view no_memory = "out of memory: use a smaller input or a larger machine";
-/// Where there is no error that tells: memory may not even have sufficed for one.
+/// Where there is no error with a message: memory may not even have sufficed for one.
 constexpr std::string_view no_error =
     "out of memory, or a defect of the program: use a smaller input or a larger machine, or report it";
 constexpr bool for_good = true;
@@ -112,13 +112,13 @@ void handle_signals() {
   }
   // A closed pipe and the limit of file sizes become errors of writing, so that nothing is left behind.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
-  // mpirun hands these on to all ranks: what the first does with them ends the others.
+  // mpirun hands these on to all ranks: the reaction of the first ends the others.
   if (cellwalk::is_later_rank())
     for (const int signal : {SIGUSR1, SIGUSR2, SIGALRM}) std::signal(signal, SIG_IGN);
 }
 
-/// Opens what is closed of the standard streams, so that no file gets their numbers, and with it what is
-/// printed. Standard output cannot be written then, and commands fail as they do on a full device.
+/// Opens the standard streams that are closed, so that no file gets their numbers, and the text that is
+/// printed to them. Standard output cannot be written then, and commands fail as they do on a full device.
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR);
@@ -181,7 +181,7 @@ std::string empty_word(std::span<char* const> words) {
   return {};
 }
 
-/// Where long work is said to be.
+/// Where the progress of long work is logged.
 struct Log_options {
   std::string file;  ///< none if empty
   double seconds = 60;
@@ -278,7 +278,7 @@ int run_command(int argc, char** argv) {
   }
   std::optional<Work_log> work_log;
   const auto logged = [&](Ranks& all) {
-    // What all do is said by the first. Outputs of the command ask for the name.
+    // The first logs the work of all. Outputs of the command test the name.
     if (!log.file.empty() && !cellwalk::is_later_rank())
       work_log.emplace(log.file, std::chrono::duration<double>(log.seconds));
     action(all);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The option --version: the program, its optional parts and their versions.
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/io/mesh_file.h>

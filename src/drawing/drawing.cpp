@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Balls, tubes, arrows, discs and surfaces cut into triangles with normals.
 #include <cellwalk/internal/drawing/drawing.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The layout of panels, their captions and the swatches of the legend, in pixels.
 #include <cellwalk/internal/drawing/drawing.h>
 #include <cellwalk/internal/drawing/figure.h>
 

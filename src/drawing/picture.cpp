@@ -73,7 +73,7 @@ struct Rows {
   std::vector<std::uint32_t> triangles;
 };
 
-/// A drawing from one camera, with so many samples a pixel and direction.
+/// A drawing from one camera, with a number of samples a pixel and direction.
 class Renderer {
  public:
   Renderer(const Drawing& drawing, const Picture_options& options, int samples);
@@ -92,7 +92,7 @@ class Renderer {
   bool is_opaque(const Screen_triangle& t) const { return material(t).colour.opacity >= opaque_from; }
   const Material& material(const Screen_triangle& t) const { return drawing_.materials[t.material]; }
   bool meets(const Screen_triangle& t, int first, int count) const;
-  /// The samples that a triangle covers in so many rows of pixels, about.
+  /// About the number of samples that a triangle covers in `count` rows of pixels.
   double covered(const Screen_triangle& t, int first, int count) const;
 
   const Drawing& drawing_;
@@ -209,7 +209,7 @@ Image Renderer::render() const {
   return image;
 }
 
-/// The most samples that the drawing may take, as asked at most.
+/// Renders with as many samples as the drawing may take, and at most as requested.
 Image render_within_bounds(const Drawing& drawing, const Picture_options& options) {
   const double pixels = double{1} * options.width * options.height;
   const auto samples_of = [pixels](int samples) { return pixels * samples * samples; };

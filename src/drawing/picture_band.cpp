@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The fill rule, the shading and the blending of the samples of a band.
 #include "picture_band.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The distance of the eye at which a drawing fills its picture, and the projection.
 #include "picture_view.h"
 
 #include <cellwalk/internal/kernel/box.h>

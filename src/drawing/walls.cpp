@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Facets and cells drawn up to a limit of triangles, beyond which a share of them is left out.
 #include <cellwalk/internal/drawing/walls.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The patch glued to the cells that stay, applied to the map, the snapshot and the indices in turn.
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/cell_patcher.h>

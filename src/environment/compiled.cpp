@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The opening of an image: every section is tested by its checksum and its size.
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

@@ -64,7 +64,8 @@ bool are_two_sides(const Cell_view<D>& own, std::size_t i, const Cell_view<D>& o
   return true;
 }
 
-/// The number of the first shape that is that of all tetrahedra; if there is none, one that no cell has.
+/// The number of the first shape of tetrahedra, which all of them share; if there is none, one that no cell
+/// has.
 template <int D>
 std::uint32_t tetrahedron_among(const std::vector<Cell_shape>& shapes) {
   auto found = shapes.end();

@@ -45,7 +45,7 @@ void Environment_image<D>::check_shapes(const Snapshot<D>& s) {
   });
 }
 
-/// What edits left unused.
+/// Tests the lists of unused slots and names.
 template <int D>
 void Environment_image<D>::check_free(const Snapshot<D>& s) {
   for (const std::uint32_t index : s.free_indices_)

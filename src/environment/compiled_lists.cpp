@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The small parts of an image: shapes, what is free, groups, the certificate.
+// The small parts of an image: shapes, free slots and names, groups, the certificate.
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sections of an environment, written as one image to a file or to memory.
 #include <algorithm>
 #include <cstring>
 

@@ -161,7 +161,7 @@ bool Environment<D>::is_on_boundary(std::uint32_t point, const std::vector<Cell>
   });
 }
 
-/// What follows the move of a point in the snapshot: the map and the index of the boundary.
+/// The updates after the move of a point in the snapshot: those of the map and of the index of the boundary.
 template <int D>
 void Environment<D>::follow_move(std::uint32_t point, bool on_boundary) {
   if (storage_)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The star index and the layout of clusters, read from one environment and given to another.
 #include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/environment_history.h>
 #include <cellwalk/internal/environment/star_index.h>

@@ -19,7 +19,7 @@ struct Image_run {
   bool operator==(const Image_run&) const = default;
 };
 
-/// What is small, in the form that an image has it.
+/// The small parts, in the form that an image has them.
 template <int D>
 struct Image_lists {
   std::vector<Image_state<D>> state;  ///< one
@@ -66,12 +66,12 @@ class Environment_image {
   /// \throw Error(input) if an index refers to nothing
   static Compiled_environment<D> assemble(Snapshot<D> snapshot, const Image_lists<D>& lists);
 
-  /// What arrays and lists do not tell.
+  /// The state that is not in arrays and lists.
   static Environment_history history(const Environment<D>& environment);
   /// \throw Error(input) for that of another environment
   static void follow(Environment<D>& environment, const Environment_history& history);
 
-  /// \throw Error(input) naming what is wrong
+  /// \throw Error(input) naming the problem
   static void check(const Snapshot<D>& snapshot);
   /// A copy whose planes are made anew.
   static Snapshot<D> certified_again(const Snapshot<D>& snapshot);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The members of groups found by their points after edits, and written back into a soup.
 #include <cellwalk/environment/groups.h>
 #include <cellwalk/kernel/error.h>
 

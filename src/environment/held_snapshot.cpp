@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The error for the use of an environment that was moved elsewhere.
 #include <cellwalk/internal/environment/held_snapshot.h>
 #include <cellwalk/kernel/error.h>
 

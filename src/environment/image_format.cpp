@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The checksum of the header and the table of sections.
 #include <cellwalk/internal/environment/image_format.h>
 
 #define XXH_INLINE_ALL

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Points merged by coordinates, cells turned by their volume, and walls marked on both sides.
 #include "prepare_soup.h"
 
 #include <cellwalk/kernel/error.h>

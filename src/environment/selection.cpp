@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The tests of facets and cells by their centroids.
 #include <cellwalk/environment/selection.h>
 #include <cellwalk/internal/records/scene_shape.h>
 

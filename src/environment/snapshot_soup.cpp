@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The loops, marks and links of the cells in use, numbered without gaps.
 #include "snapshot_soup.h"
 
 #include <cstdint>

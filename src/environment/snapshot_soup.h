@@ -16,7 +16,7 @@ namespace cellwalk {
 template <int D>
 Cell_soup<D> soup_of(const Snapshot<D>& snapshot, std::vector<Half_facet>* names);
 
-/// How the facets of such a soup are glued, by the links of the snapshot, which are what walks go by.
+/// The gluing of the facets of such a soup, by the links of the snapshot, which walks follow.
 template <int D>
 Gluing gluing_of(const Snapshot<D>& snapshot, const std::vector<Half_facet>& names);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The signs of the cells at a moving vertex, their planes and boundary zones, committed or restored.
 #include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/environment/vertex_mover.h>
@@ -14,7 +15,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// If fewer cells than one for so many blocks are withdrawn, they are sorted; else all blocks are looked at.
+/// If fewer cells than one for this number of blocks are withdrawn, they are sorted; else all blocks are
+/// looked at.
 constexpr std::size_t blocks_a_cell = 64;
 
 /// Calls use() with the points of a simplex, one of them moved to x, in an order in which their orientation
@@ -34,7 +36,7 @@ auto with_moved(const Cell_view<D>& cell, std::uint32_t point, const Point<D>& x
     return use(at(loop[1]), at(loop[0]), at(loop[2]), at(apex));
 }
 
-/// Fetches what will be written if the point moves, so that it arrives while the rest is decided.
+/// Fetches the planes that will be written if the point moves, so that they arrive while the rest is decided.
 template <int D>
 void prefetch_planes(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
   for (const Cell c : cells) __builtin_prefetch(snapshot.blocks(c), 1);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Sets without neighbours, drawn with equal probability along each axis or cell by cell.
 #include "apart.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The icosahedron, subdivided and projected onto a sphere.
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/records/make_body.h>

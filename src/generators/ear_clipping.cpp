@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact tests of ears and bridges of a polygon.
 #include "ear_clipping.h"
 
 #include <cellwalk/kernel/error.h>

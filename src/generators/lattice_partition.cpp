@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Boxes that grow at random, slits between them, and the points of their cells.
 #include "lattice_partition.h"
 
 #include <cellwalk/generators/slits.h>

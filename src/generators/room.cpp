@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Walls with doors on a grid of squares, and random star-shaped obstacles.
 #include <cellwalk/generators/room.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/random.h>

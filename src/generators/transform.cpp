@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Rotation matrices in quadruple precision, and the checks of their input.
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The folders above the program or module, and those in which the linker searches.
 #include <cellwalk/internal/kernel/beside_program.h>
 
 #include <dlfcn.h>

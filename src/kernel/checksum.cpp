@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// XXH3 of 64 bits.
 #include <cellwalk/internal/kernel/checksum.h>
 
 #define XXH_INLINE_ALL

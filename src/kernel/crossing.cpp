@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The error bounds of times and coordinates, and their exact values where the bounds do not suffice.
 #include <cellwalk/internal/kernel/crossing.h>
 
 #include <algorithm>
@@ -76,9 +77,9 @@ std::optional<Bounded_twofold> quotient(const Bounded_twofold& at_a, const Bound
   return Bounded_twofold{time, (1 + 0x1p-8) * share * std::abs(time.high)};
 }
 
-/// The time rounded down, if twice the precision of a double tells; otherwise with a smaller error of the
+/// The time rounded down, if twice the precision of a double suffices; otherwise with a smaller error of the
 /// orientation of a, which a motion needs that starts close to the plane, and at last of both.
-/// \param time what is known of it
+/// \param time the bounds known
 template <int D>
 std::optional<double> certain_time(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
   if (time)
@@ -113,7 +114,7 @@ Fraction exact_coordinate(double from, double to, const Fraction& time) {
   return {Ring(from) * time.denominator() + time.numerator() * difference, time.denominator()};
 }
 
-/// The crossing_time(), given what is known of it.
+/// The crossing_time(), given the bounds known.
 template <int D>
 double rounded_time_of(const Crossing<D>& crossing, const std::optional<Bounded_twofold>& time) {
   if (const auto rounded = certain_time(crossing, time)) return *rounded;

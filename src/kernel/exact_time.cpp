@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Times computed when they are first compared exactly; rounded ones decide most comparisons.
 #include <cellwalk/internal/kernel/crossing.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rounding of fractions downwards and to nearest, and their conversion to rationals.
 #include <cellwalk/internal/kernel/fraction.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Orientations by each number policy, and points for which they are plainly 0.
 #include <cellwalk/kernel/policies.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Normals by doubles, intervals or exact numbers, and tests of points in segments and polygons.
 #include <cellwalk/internal/kernel/exact_value.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Signs that decide most meetings, and exact clipping of sets in the simplex for the others.
 #include <cellwalk/internal/kernel/swept_simplex.h>
 
 #include <algorithm>
@@ -207,7 +208,7 @@ bool Swept_simplex<D>::passes_beside(std::span<const Point<D>> feature, bool& is
   return is_beside;
 }
 
-/// What signs of input points tell.
+/// The encounter as far as signs of input points decide it.
 /// \pre K is not flat
 template <int D>
 Encounter Swept_simplex<D>::by_signs(std::span<const Point<D>> feature, Predicate_counts& counts,
@@ -278,8 +279,8 @@ bool Swept_simplex<D>::leaves(std::span<const Point<D>> feature) const {
          std::none_of(part.begin(), part.end(), [](const Place& x) { return CGAL::is_zero(x.values[0]); });
 }
 
-/// True proves that the set meets K only in the wall as it starts, or on its still corners and what they
-/// span: a plane parts them weakly, and what lies in it of the set, or of K, is no more than that.
+/// True proves that the set meets K only in the wall as it starts, or in the hull of its still corners: a
+/// plane parts them weakly, and the part in it of the set, or of K, is no more than that.
 /// \pre K is not flat
 template <int D>
 bool Swept_simplex<D>::is_surely_left(std::span<const Point<D>> feature, Predicate_counts& counts) const {

@@ -26,7 +26,7 @@ Twofold_vector<D> differences(const Point<D>& x, const Point<D>& y) {
 }
 
 /// Between these, products of three differences and of their low parts neither overflow nor lose a bit to
-/// underflow that matters: the largest of them is 2^-450 at least, and what underflows 2^-900 at most.
+/// underflow that matters: the largest of them is 2^-450 at least, and a term that underflows 2^-900 at most.
 inline constexpr double least_difference = 0x1p-150, largest_difference = 0x1p150;
 
 template <int D>
@@ -95,7 +95,7 @@ class Exact_terms {
         for (const double c : {z.high, z.low}) add(a, b, c);
   }
   /// With n terms at most, n = 192, and u = 2^-53, the pass makes the sum S of the sizes of all terms but the
-  /// last at most nu times what it was, as each is the error of a sum of some of them. Then the terms are
+  /// last at most nu times its old value, as each is the error of a sum of some of them. Then the terms are
   /// added in numbers of twice the precision, each with an error below 4u^2 times a sum so far: the bound is
   /// ample for 4nu^2 (|sum| + 2S), where 8n^2 u^3 < 2^-140.
   Bounded_twofold sum() {

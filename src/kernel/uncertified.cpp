@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The error for contradictory decisions.
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The mapping of compiled files, and the compaction of an environment before it is written.
 #include "compiled_file.h"
 
 #include <cellwalk/io/ovm.h>
@@ -20,7 +21,7 @@ bool has_unused_names(const Snapshot<D>& snapshot) {
   return false;
 }
 
-/// Takes the unused names out of an environment, and follows with what refers to it.
+/// Takes the unused names out of an environment, and renames the members of groups.
 template <int D>
 void compact(Environment<D>& environment, Groups<D>& groups) {
   const Compaction names = environment.compact();

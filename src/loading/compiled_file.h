@@ -14,8 +14,8 @@ namespace cellwalk {
 
 inline constexpr const char* compiled_format = "Cellwalk, compiled";
 
-/// A file of cells, compiled or of any other format. What can be read only once, such as a pipe, is read when
-/// this is made.
+/// A file of cells, compiled or of any other format. A source that can be read only once, such as a pipe, is
+/// read when this is made.
 class Cells_input {
  public:
   /// \throw Error(input) if a pipe cannot be read

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice between a compiled file, cells that are built, and a surface that is meshed first.
 #include <cellwalk/loading/environment_file.h>
 
 #include <fmt/core.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The values of options passed to each generator, and the table of them all.
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/lattice_map.h>
 #include <cellwalk/generators/room.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The meshing component of a full build: TetGen, Mesh_3 and the triangulation of domains.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
 #include <cellwalk/loading/report.h>
@@ -39,7 +40,7 @@ void add_surfaces(const Report& report, Meshed<3>& meshed) {
   }
 }
 
-/// Adds a line that says why TetGen needed another tolerance than its own.
+/// Adds a line with the reason why TetGen needed another tolerance than its own.
 void add_tolerance(const std::string& tolerance, Meshed<3>& meshed) {
   if (tolerance.empty()) return;
   meshed.lines.push_back(tolerance);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The meshing component of a build without it: errors that describe how to get it.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/mesher.h>
 

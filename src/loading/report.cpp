@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sentences and keys for certificates, changes of the input and facing walls.
 #include <cellwalk/loading/report.h>
 
 #include <fmt/core.h>

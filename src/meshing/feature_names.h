@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What messages call the vertices and facets of surfaces: by their numbers in the input.
+// The names of the vertices and facets of surfaces in messages: their numbers in the input.
 #ifndef CELLWALK_MESHING_FEATURE_NAMES_H
 #define CELLWALK_MESHING_FEATURE_NAMES_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The bounds given to the helper of Mesh_3, scaled to a size without overflow, and its tetrahedra.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/meshing/mesh3.h>
@@ -45,7 +46,7 @@ void check_sizes(const Mesh3_options& options, double cell, double facet, const 
                         fmt::format("of diagonal {:g}", extent.diagonal));
 }
 
-/// Of what Mesh_3 is given.
+/// Of the input of Mesh_3.
 Extent extent_of(const detail::Mesher_input& input, const Mesh3_report& report, int scale) {
   Extent extent;
   Point<3> low = input.points[0], high = low;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The nearest points of corners and faces, and of pairs of edges.
 #include "narrow_distance.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The search for near features at growing distances, with a limit of pairs.
 #include "narrow_place.h"
 
 #include <CGAL/Bbox_3.h>
@@ -20,8 +21,8 @@ namespace {
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 using Corners = std::array<std::size_t, 3>;
 
-/// What is nearer than this part of the size is near: ten times TetGen's tolerance. Where nothing is, the
-/// search goes on with the next one.
+/// Features are near if their distance is below this part of the size: ten times TetGen's tolerance. Where
+/// none are, the search goes on with the next part.
 constexpr std::array<double, 3> near{1e-7, 1e-4, 1e-1};
 /// Pairs of features that are compared, at most: two seconds. More of them are near each other only where a
 /// fine part lies beside something very large.
@@ -90,7 +91,7 @@ class Search {
       best = {true, {std::min(a, b), std::max(a, b)}, 0, d, points_[std::min(a, b)]};
   }
 
-  /// Boxes that meet where what is in them may be nearer than `reach`.
+  /// Boxes that meet where their contents may be nearer than `reach`.
   template <class Corner_list>
   Box box(const Corner_list& corners, double reach, std::size_t info) const {
     CGAL::Bbox_3 b;

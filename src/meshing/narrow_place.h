@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where surfaces are narrowest: what meshers cannot cope with is there.
+// The narrowest places of surfaces, where meshers fail.
 #ifndef CELLWALK_MESHING_NARROW_PLACE_H
 #define CELLWALK_MESHING_NARROW_PLACE_H
 

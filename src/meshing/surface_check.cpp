@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Facets cut into triangles, tested for intersections and oriented outwards, by CGAL.
 #include <cellwalk/kernel/error.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>

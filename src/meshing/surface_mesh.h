@@ -31,7 +31,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> intersecting_faces(const Su
 /// check_surface(), with the vertex and facet of the input that each is or comes from.
 Traced_surface check_traced(const Surface_soup& soup, const std::string& name, Surface_report& report);
 
-/// Surfaces that may be meshed, as triangles, and what messages call their parts.
+/// Surfaces that may be meshed, as triangles, and the names of their parts in messages.
 struct Checked_surfaces {
   std::vector<Surface_soup> soups;
   Feature_names names;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Points merged, unused ones dropped, and facets of each edge tested and oriented.
 #include "surface_topology.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The tests that closed surfaces do not meet, and that obstacles lie inside and apart.
 #include <cellwalk/kernel/error.h>
 
 #include <CGAL/Side_of_triangle_mesh.h>

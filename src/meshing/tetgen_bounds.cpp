@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The checks of bounds before a call of TetGen, and of its tetrahedra after it.
 #include "tetgen_bounds.h"
 
 #include <cellwalk/kernel/error.h>

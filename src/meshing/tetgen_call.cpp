@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The switches of TetGen, its tolerances tried in turn, and the checks of its result.
 #include "tetgen_call.h"
 
 #include <cellwalk/kernel/error.h>
@@ -75,7 +76,7 @@ std::vector<std::array<std::int32_t, 4>> neighbours_of(
   return neighbours;
 }
 
-/// What TetGen wrote, checked as far as one can without looking at the surfaces.
+/// The output of TetGen, checked as far as possible without the surfaces.
 Tetgen_result result_of(const Mesher_output& output, int scale) {
   Tetgen_result result;
   result.scale = scale;

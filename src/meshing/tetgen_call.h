@@ -28,7 +28,7 @@ using Accept_mesh = std::function<void(const Tetgen_result&)>;
 
 /// Runs TetGen on surfaces that do not meet: with its own tolerance and, while it fails or makes a mesh that
 /// is not accepted, with finer ones, which move nothing either.
-/// \return what was necessary: empty if TetGen's own tolerance was right
+/// \return the tolerance that was necessary: empty if TetGen's own one was right
 /// \throw Error(usage) as run_helper(); Error(not_certified) if no mesh is accepted: the first reason, and
 ///        where the surfaces are narrowest
 std::string mesh_by_tetgen(const std::vector<Surface_soup>& surfaces, const Feature_names& names,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A flood of tetrahedra across facets, whose sides change at those of the surfaces.
 #include "tetgen_sides.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What TetGen made of surfaces: whether it preserved them, and which of them enclose each tetrahedron.
+// The test that TetGen preserved surfaces, and the surfaces that enclose each tetrahedron.
 #ifndef CELLWALK_MESHING_TETGEN_SIDES_H
 #define CELLWALK_MESHING_TETGEN_SIDES_H
 

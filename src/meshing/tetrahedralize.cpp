@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The tetrahedra inside the surfaces, collected as a soup with walls.
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The walks from all sides of the start, of which the one that gets furthest is the answer.
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/query/move.h>
 

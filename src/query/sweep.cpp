@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sweeps from all pairs of sides of the ends, of which the best one is the answer.
 #include <cellwalk/internal/edge/all_chains.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/query/sweep.h>

@@ -21,7 +21,8 @@ namespace {
 constexpr int tag = 1;
 constexpr std::size_t most_sent = 64;                        // messages on their way at a time
 constexpr std::size_t longest_piece = std::size_t{1} << 28;  // bytes; MPI counts in int
-// Who waits gives way so often before it sleeps, first for a short time, at last for a long one.
+// The number of times that a waiting rank yields before it sleeps, first for a short time, at last for a long
+// one.
 constexpr int yields = 20;
 constexpr std::chrono::microseconds shortest_sleep{50}, longest_sleep{1000};
 
@@ -90,7 +91,7 @@ class Mpi final : public Transport {
  private:
   static constexpr bool abort_on_exception = false;
 
-  /// What goes before the bytes of a message.
+  /// The head before the bytes of a message.
   struct Head {
     std::uint64_t length = 0;
     Message_kind kind = Message_kind::part;

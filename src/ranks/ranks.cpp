@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The environment variables of mpirun, and the module of MPI that is loaded if they are set.
 #include <cellwalk/internal/io/module.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/ranks/ranks.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The standard input of the first rank, sent to all others.
 #include <cellwalk/internal/ranks/ranks.h>
 
 #include <fcntl.h>

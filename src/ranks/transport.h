@@ -10,7 +10,7 @@
 
 namespace cellwalk {
 
-/// What a message of a rank to the first, or of the first to a rank, holds.
+/// The content of a message of a rank to the first, or of the first to a rank.
 enum class Message_kind : std::uint64_t { part, failure, farewell };
 struct Message {
   Message_kind kind = Message_kind::part;
@@ -31,7 +31,7 @@ class Transport {
   /// Sends a message, in the order of calls. Returns at once, unless many earlier ones are still on their
   /// way.
   virtual void send(std::size_t to, Message message) = 0;
-  /// Gives up what was sent, and nobody will receive.
+  /// Gives up messages that were sent, and nobody will receive.
   virtual void drop_sent() = 0;
   /// The next message that a rank sent to this one.
   virtual Message receive(std::size_t from) = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Polygons cut into triangles, their edges without repetition, and unused points dropped.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/records/make_body.h>
 

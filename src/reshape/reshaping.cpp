@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The public functions of Reshaping, each passed to the part that makes the change.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/reshape/reshaping.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The attempt of a move, shorter ways where something touches, and the push of residents that were met.
 #include "state.h"
 
 #include <cellwalk/internal/body/stop_candidates.h>
@@ -13,7 +14,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A vertex that touches something tries these shares of its way, halved so often.
+/// A vertex that touches something tries shorter ways, halved up to this number of times.
 constexpr int touch_halvings = 6;
 /// How much further than needed something is pushed, so that rounding does not bring it back.
 constexpr double contact_offset_ulps = 16;
@@ -33,7 +34,7 @@ Box<D> Reshaping_state<D>::box_of_star(const Point<D>& target) const {
 }
 
 /// Moves the point to the target or leaves it where it is.
-/// \param is_first whether a call asks for this move for the first time
+/// \param is_first whether this is the first attempt of the move in a call
 template <int D>
 Vertex_result<D> Reshaping_state<D>::attempt(std::uint32_t point, const Point<D>& target, Attempt kind,
                                              bool is_first) {
@@ -128,9 +129,9 @@ Vertex_result<D> Reshaping_state<D>::move(std::uint32_t point, const Point<D>& t
   return result;
 }
 
-/// Moves what was met by what is left of the motion of the wall there, along the normal, as far as other
-/// walls allow; shared among the vertices of an edge or a face so that the point met moves so far. False if
-/// nothing moved.
+/// Pushes the resident that was met along the normal, by the rest of the motion of the wall there, as far as
+/// other walls allow; shared among the vertices of an edge or a face so that the point met moves by that
+/// length. False if nothing moved.
 template <int D>
 bool Reshaping_state<D>::push(const Wall_hit<D>& hit, const Vector<D>& motion) {
   ++counts.pushes;
@@ -147,8 +148,8 @@ bool Reshaping_state<D>::push(const Wall_hit<D>& hit, const Vector<D>& motion) {
   return has_moved;
 }
 
-/// Facets and cells change between moves only: all certificates are made anew, since what is written of the
-/// two cells of a facet must hold for both.
+/// Facets and cells change between moves only: all certificates are made anew, since the data of the two
+/// cells of a facet must hold for both.
 template <int D>
 Toggle<D>& Reshaping_state<D>::restored_toggle() {
   check_open();

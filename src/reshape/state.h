@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a Reshaping holds: the environment and all that changes it, what lies in it, and the moves of single
-// vertices. Theory: docs/moving.md.
+// The state of a Reshaping: the environment and its editors, the residents, and the moves of single vertices.
+// Theory: docs/moving.md.
 #ifndef CELLWALK_RESHAPE_STATE_H
 #define CELLWALK_RESHAPE_STATE_H
 
@@ -33,8 +33,8 @@ struct Reshaping_state {
         tissue(transaction, toggle),
         merger(transaction, toggle) {}
 
-  /// move: to the target, if that is free. whether: the same, but the result need not say what is met.
-  /// nothing: it stays in any case.
+  /// move: to the target, if that is free. whether: the same, but the result need not name the resident that
+  /// is met. nothing: it stays in any case.
   enum class Attempt : std::uint8_t { move, whether, nothing };
   Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, Attempt kind, bool is_first = false);
   bool decide(const Point<D>& from, std::uint32_t point, bool any, Vertex_result<D>& result);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The order of a step, free particles and then bodies in parallel, and the edits of the environment.
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/world.h>
 
@@ -87,7 +88,7 @@ std::vector<Change_outcome> World<D>::change(Environment<D>& environment, Change
   return made;
 }
 
-/// Cells were replaced: those of contacts may be gone, or their names those of others.
+/// Cells were replaced: the cells of contacts may be gone, or others may have their names.
 template <int D>
 void World<D>::forget_cells() {
   for (Run_contact<D>& met : contacts_) {
@@ -198,7 +199,7 @@ const Rod<D>* World<D>::catheter() const {
   return nullptr;
 }
 
-// What the header defines too, for programs that do not inline it.
+// Functions that the header defines too, for programs that do not inline them.
 template class World<2>;
 template class World<3>;
 

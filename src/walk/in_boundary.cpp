@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The places on a line in the boundary of a cell, ordered by their parameters.
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/in_boundary.h>

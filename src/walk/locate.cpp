@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A tree of the boxes of cells, and the sides of walls at a point among the cells that hold it.
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact times at which a motion passes its choices and meets walls, and their comparison.
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/sides_taken.h>
@@ -11,7 +12,8 @@ namespace {
 
 /// When the line ab passes that of ridge uv, which meets it in one point.
 Fraction passing_time(const Point<3>& a, const Point<3>& b, const Point<3>& u, const Point<3>& v) {
-  // Any plane of the ridge gives it that does not contain ab: that of a point beside u on some axis.
+  // Any plane of the ridge that does not contain ab gives it: the plane through a point beside u on some
+  // axis.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Point<3> beside = u;
     beside[axis] = u[axis] == 0 ? 1 : 0;

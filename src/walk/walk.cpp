@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A walk by float planes alone, the late location of contacts, and the walks of all number policies.
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/walk_impl.h>

@@ -31,8 +31,8 @@ class Body_access;
 /// Refers to the snapshot, which must outlive it. Copies are bodies of their own.
 ///
 /// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves,
-/// registers or checks it throws Error(usage), until register_again(); what it is made of and where it stands
-/// can be asked still. A Reshaping in which the body is listed keeps it registered instead.
+/// registers or checks it throws Error(usage), until register_again(); its parts and positions can still be
+/// read. A Reshaping in which the body is listed keeps it registered instead.
 template <int D>
 class Body {
  public:
@@ -60,9 +60,9 @@ class Body {
   /// kept. Faces are registered if they were swept in the last move, or never moved. Where cells were
   /// replaced, vertices and edges may choose as in the constructor, but for a vertex whose cell alone was
   /// split, with no compaction since. Gives a region free of walls up.
-  /// \throw Error(outside) as the constructor, where a wall came to lie in the way of what is kept, or its
-  ///        side was filled: then the body is as it was, and may be tried again after another edit.
-  ///        Error(usage) for a locator that is out of date, or if the edits since are forgotten
+  /// \throw Error(outside) as the constructor, where a wall now lies in the way of a vertex or an edge that
+  ///        keeps its side, or this side was filled: then the body is as it was, and may be tried again after
+  ///        another edit. Error(usage) for a locator that is out of date, or if the edits since are forgotten
   /// Cost: that of the constructor, and reading the edits since; up to three times that if a face is pierced.
   void register_again(const Locator<D>& locator);
 
@@ -99,9 +99,9 @@ class Body {
   std::optional<Contact<D>> move_vertex(std::uint32_t vertex, const Point<D>& target,
                                         const Body_options& options, Body_counts& counts);
 
-  /// Registers what was moved without tests in a region free of walls.
+  /// Registers the vertices that were moved without tests in a region free of walls, and their edges.
   void refresh(Body_counts& counts);
-  /// Registers what is stale, and gives the region up.
+  /// Registers the stale vertices and edges, and gives the region up.
   void leave_region(Body_counts& counts);
   /// The particles and chains.
   /// \pre nothing is stale, see refresh(), and no edit since

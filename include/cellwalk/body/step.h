@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A step of a body: what decides it, and what it reports. Paper: section III. Theory: docs/bodies.md.
+// A step of a body: its options and its results. Paper: section III. Theory: docs/bodies.md.
 #ifndef CELLWALK_BODY_STEP_H
 #define CELLWALK_BODY_STEP_H
 
@@ -15,7 +15,8 @@
 
 namespace cellwalk {
 
-/// What blocks the move of a vertex. Bit i of a set is for its i-th neighbour, see Body::neighbours().
+/// The parts of a body that walls block in the move of a vertex. Bit i of a set is for its i-th neighbour,
+/// see Body::neighbours().
 template <int D>
 struct Rejected_move {
   std::uint32_t vertex = 0;
@@ -39,11 +40,10 @@ enum class Step_rule {
   /// Edges and faces are tested as above. The vertex stays where it was.
   reject,
   /// The rule of the paper, and of traces: edges are tested at the target of the vertex, which stays where it
-  /// was. Unless Sweep::three_segments is asked for, edges that meet a wall on their way are reported, too,
-  /// but do not hold the vertex back; faces are left alone. With Touch::stop any closed wall is in the way
-  /// that meets the closed way of the vertex, or an edge at its end, or a closed triangle. This includes
-  /// walls that are touched at the start: a vertex or an edge at a wall stays. Vertices have at most 64
-  /// edges.
+  /// was. Unless Sweep::three_segments is chosen, edges that meet a wall on their way are reported, too, but
+  /// do not hold the vertex back; faces are left alone. With Touch::stop any closed wall is in the way that
+  /// meets the closed way of the vertex, or an edge at its end, or a closed triangle. This includes walls
+  /// that are touched at the start: a vertex or an edge at a wall stays. Vertices have at most 64 edges.
   reject_at_target
 };
 
@@ -55,7 +55,7 @@ struct Body_options {
   /// may be taken otherwise.
   bool clearance = true;
   Step_rule rule = Step_rule::slide;
-  /// By Step_rule::reject_at_target, report what blocks instead of contacts. This costs less, since the
+  /// By Step_rule::reject_at_target, report the blocked parts instead of contacts. This costs less, since the
   /// contact of an edge on its way is not located. Without effect by other rules.
   bool reports_blocked = false;
   /// A vertex that slides goes on along walls until it met this many in a step. Values below 1 count as 1: it
@@ -63,7 +63,7 @@ struct Body_options {
   int most_contacts = 4;
 };
 
-/// What walls did in a step.
+/// The contacts of a step, or the parts that were blocked.
 template <int D>
 struct Step_report {
   /// In the order met. By Step_rule::reject_at_target the first of each vertex that stays, as
@@ -78,9 +78,9 @@ struct Step_report {
   }
 };
 
-/// What the moves of bodies did. All counts are machine-independent.
+/// Counts of the moves of bodies. All of them are machine-independent.
 struct Body_counts {
-  std::uint64_t moves = 0;         ///< moves of vertices asked for
+  std::uint64_t moves = 0;         ///< moves of vertices requested
   std::uint64_t in_region = 0;     ///< made without a test, with all their edges in a region free of walls
   std::uint64_t regions = 0;       ///< such regions found
   std::uint64_t no_region = 0;     ///< searches that found none

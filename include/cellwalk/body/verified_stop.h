@@ -13,9 +13,14 @@ namespace cellwalk {
 /// Moves a particle to a point near a contact for which the complete move from where it stands is found free.
 /// Tried in this order, which is that of bodies: the exact contact point with each coordinate rounded up or
 /// down, along the normal of the contact first; that point rounded towards where the particle stands, shifted
-/// along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at time (1 - 2^-k) of
-/// the contact's, k = 20 .. 1; where it stands.
-/// \pre contact is that of moving this particle to `target`, see vertex_contact()
+/// along the normal by 1, 2, 4 .. 1024 ulp of its largest coordinate; points on the way at (1 - 2^-k) times
+/// the time of the contact, k = 20 .. 1; where it stands.
+/// \param snapshot in which the particle lies
+/// \param particle moved to the point that is found
+/// \param target the end of the blocked move
+/// \param contact the first one on the way to `target`, with its exact time
+/// \param counts raised by the walks
+/// \pre the contact comes from a move of this particle to `target`, see vertex_contact()
 /// Returns true if the particle moved.
 /// Cost: nearly always one walk, and some rational arithmetic, at most 39 walks.
 template <int D>
@@ -31,11 +36,17 @@ struct Wall_response {
 };
 
 /// Moves a particle by `velocity` for a unit of time. At each contact it stops (stop_at_contact), its
-/// velocity is reflected or made to slide along the wall, and what remains of the time is a new move, lifted
-/// off the wall by a few ulp. A particle that slides into a corner goes on along the edge between the two
-/// walls, or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
+/// velocity is reflected or made to slide along the wall, and the rest of the time is a new move, lifted off
+/// the wall by a few ulp. A particle that slides into a corner goes on along the edge between the two walls,
+/// or rests. Returns the velocity at the end. The particle satisfies I1 before and after. Contacts are
 /// appended to `met`, their times as shares of the unit of time: the first is exact, those after it follow
 /// from positions that are rounded.
+/// \param snapshot in which the particle lies
+/// \param particle satisfies I1
+/// \param velocity in units of the environment per unit of time
+/// \param response restitution and friction in [0,1]
+/// \param met receives the contacts
+/// \param counts raised by the walks
 /// \pre response is in range
 /// \throw Error(usage) as move(); Error(input) if the point where it would be is not finite; nothing changes
 template <int D>

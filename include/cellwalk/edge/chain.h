@@ -50,7 +50,7 @@ template <int D>
 struct Chain_result {
   Chain chain;
   /// If set, there is no chain: a wall blocks the segment, at contact->time from p to q. The time 1 means
-  /// that it leads to q on a different side of the walls there than that of q.
+  /// that it leads to q on another side of the walls there.
   std::optional<Contact<D>> contact;
   /// The segment continues along a wall from its rim, and has chains on both sides of it.
   bool has_choice = false;
@@ -58,6 +58,9 @@ struct Chain_result {
 
 /// Walks a temporary particle from p to q.
 /// \pre each particle lies in the closure of its cell
+/// \param snapshot in which the particles lie
+/// \param p,q the ends of the segment, with their cells
+/// \param counts raised by the walk
 /// \param locates_contact if false, a contact is left to locate_contact()
 /// Degenerate cases: if the segment may pass a wall on either side, a fixed rule chooses one, see walk().
 /// Cost: that of the walk.
@@ -76,6 +79,10 @@ Chain_result<D> find_any_chain(const Snapshot<D>& snapshot, const Particle<D>& p
 
 /// Invariant I2: the chain leads from the cell of p to that of q through passable facets, and the segment
 /// passes them in order. Exact in every position.
+/// \param snapshot in which the particles lie
+/// \param p,q the ends of the segment, with their cells
+/// \param chain the half-facets from p to q
+/// \param counts raised by the tests
 /// Cost: that of passes(), and rational arithmetic if that is inconclusive.
 template <int D>
 bool is_chain(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q, const Chain& chain,
@@ -93,10 +100,14 @@ Chain reversed(const Snapshot<D>& snapshot, const Chain& chain);
 template <int D>
 void prepend_crossed_facets(const Snapshot<D>& snapshot, Chain& chain, std::span<const Half_facet> crossed);
 
-/// True proves that the segment pq crosses the facets of a chain in order. Then the chain is that of pq, and
-/// if it was derived from that of another segment p'q before p moved (prepend_crossed_facets), the whole
-/// triangle p'pq is free. False is inconclusive: facets in whose plane the segment lies, and facets of a star
-/// crossed backwards in one point, are not examined. All signs are exact.
+/// True proves that the segment pq crosses the facets of a chain in order. Then the chain is valid for pq,
+/// and if it was derived from the chain of another segment p'q before p moved (prepend_crossed_facets), the
+/// whole triangle p'pq is free. False is inconclusive: facets in whose plane the segment lies, and facets of
+/// a star crossed backwards in one point, are not examined. All signs are exact.
+/// \param snapshot whose half-facets the chain names
+/// \param chain the half-facets from p to q
+/// \param p,q the ends of the segment
+/// \param counts raised by the tests
 /// Cost: two signs a facet and one for each of its ridges.
 template <int D>
 bool passes(const Snapshot<D>& snapshot, const Chain& chain, const Point<D>& p, const Point<D>& q,

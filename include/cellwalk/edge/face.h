@@ -66,18 +66,21 @@ struct Face_result {
 /// Sweeps the face pqr while p moves along its path and q and r stand still. Returns the supporting walls
 /// after the move, or the first contact. Touching a wall is no contact. If p is blocked on its path, only
 /// contacts before that time count, and no supporting walls are returned, since the move is not made.
-/// What comes between two faces, over the edge that they share, is no matter of one face: Body finds it.
+/// Walls that come between two faces, over the edge that they share, concern no single face: Body finds them.
 ///
 /// Walls that cross an edge of the face come through it too, and are reported at the same time as by
 /// sweep_triangle(), or earlier; walls that hit only the edges (in the plane of the face) are not reported.
+/// \param snapshot in which the face lies
+/// \param path the path of p, which may be blocked
+/// \param q,r the corners that stand still
 /// \param supporting_walls the supporting walls of the face before the move
 /// \param chains the chains of its edges after the move; if one is null, only a contact is searched, and no
 ///        supporting walls are returned
+/// \param counts raised by the sweep
 /// \pre the sweeps of the edges pq and pr are free, at least up to the time of a contact
 /// Degenerate cases: all positions of walls relative to the face. A face that moves in its own plane is free
-/// if its edges are, and if walls in the plane that are joined under what it sweeps have it and its edges on
-/// one side. A face with collinear corners has no
-/// interior.
+/// if its edges are, and if walls in the plane that are joined under the area that it sweeps have it and its
+/// edges on one side. A face with collinear corners has no interior.
 /// Cost: about 60 ns a cell near the face if it meets no wall; some hundred ns a wall near it; some ten us
 /// for the time of a contact; up to milliseconds if the face or one of its edges lies in the plane of walls.
 Face_result sweep_face(const Snapshot<3>& snapshot, const Vertex_path<3>& path, const Particle<3>& q,
@@ -92,10 +95,14 @@ struct Face_registration {
 };
 
 /// Finds the supporting walls of a face at its current position, and a wall that pierces it (invariant I3).
+/// \param snapshot in which the face lies
+/// \param p,q,r the corners, with their cells
 /// \param chains the chains of its edges
+/// \param counts raised by the registration
 /// \param known supporting walls to keep if the edges allow it; those of a valid face are found again
-/// Degenerate cases: a face on walls is on the side of its edges; on membranes strictly inside it, on that of
-/// `known`, otherwise on that towards (e, e^2, e^3), e small, which depends on the geometry alone.
+/// Degenerate cases: a face on walls is on the side of its edges; on membranes strictly inside it, on the
+/// side of `known`, otherwise on the side towards (e, e^2, e^3), e small, which depends on the geometry
+/// alone.
 /// Cost: some us if walls are near, up to milliseconds if it lies in their plane.
 Face_registration register_face(const Snapshot<3>& snapshot, const Particle<3>& p, const Particle<3>& q,
                                 const Particle<3>& r, const Face_chains& chains, Face_counts& counts,

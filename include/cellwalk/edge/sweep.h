@@ -68,7 +68,13 @@ void check_search(const Sweep_options& options);
 }  // namespace detail
 
 /// Moves p to a target, with an edge from it to q, which stands still: free if it is on some sides of walls.
+/// \param snapshot in which the edge lies
+/// \param p the end that moves
+/// \param target finite
+/// \param q the end that stands still
 /// \param before the chain of the edge before the move
+/// \param options the sweep, the search and its tolerance
+/// \param counts raised by the sweep
 /// \pre p and q satisfy I1
 /// \throw Error(usage) for p or q without a cell, or in one that an edit removed, if its name is not reused,
 ///        and for a dichotomic search unless options.tolerance lies in (0,1]; Error(input) for a target or q
@@ -84,8 +90,12 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 
 /// Sweeps one edge of a vertex whose walk is known. Only contacts of the edge before p is blocked count; with
 /// Touch::stop those of p as well. The result's p and cells are not set.
+/// \param snapshot in which the edge lies
 /// \param path the path of p
+/// \param q the end that stands still
 /// \param before the chain of the edge before the move
+/// \param options the sweep, the search and its tolerance
+/// \param counts raised by the sweep
 /// \param met the first contact of the complete sweep, if it is known: it is not looked for again
 /// \pre if the path is blocked, path.visited holds the cells of the walk
 template <int D>
@@ -104,8 +114,12 @@ struct Free_chain {
 /// Tests whether the edge is free while p moves along a free path, and returns its chain after the move, or
 /// none. It decides like sweep_edge_along() with Touch::pass, but does not locate a contact, which is the
 /// most expensive part.
+/// \param snapshot in which the edge lies
 /// \param path the path of p
+/// \param q the end that stands still
 /// \param before the chain of the edge before the move
+/// \param options the sweep and its certificates
+/// \param counts raised by the sweep
 /// \pre !path.blocked
 /// Cost: that of the sweep; if a wall pierces the swept triangle, some twenty signs.
 template <int D>
@@ -114,7 +128,10 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
                                      Edge_counts& counts);
 
 /// The contact of a vertex whose walk from one point to another is blocked.
+/// \param snapshot in which the vertex walks
+/// \param from,target the ends of the motion
 /// \param met the contact of that walk, whose place and normal are taken over
+/// \param counts raised by the tests
 /// \pre the signs of the walk were exact: the target lies outside the cell met.cell
 /// Cost: some signs for each facet of the last cell, and a rational number.
 template <int D>

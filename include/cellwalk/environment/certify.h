@@ -69,7 +69,8 @@ struct Facing_facets {
 struct Facing_walls {
   Facing_facets overlapping;  ///< their interiors have a point in common, by exact predicates
   Facing_facets near;         ///< others within `tolerance` of each other; rounded, and decides nothing
-  /// A billionth of the diagonal, or what rounded coordinates may be off. In units of the environment.
+  /// A billionth of the diagonal, or the error of rounded coordinates if that is larger. In units of the
+  /// environment.
   double tolerance = 0;
 };
 

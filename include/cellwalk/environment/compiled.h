@@ -24,14 +24,14 @@ struct Held_bytes {
   std::shared_ptr<const void> owner;
 };
 
-/// What an image holds.
+/// The content of an image.
 template <int D>
 struct Compiled_environment {
   Environment<D> environment;  ///< frozen; Environment::thaw() gives it a map
   Certificate certificate;     ///< of when the image was written
   Groups<D> groups;
 };
-/// of_dimension<3>(any) is that of three dimensions, or an Error.
+/// of_dimension<3>(any) is the one of three dimensions, or an Error.
 using Any_compiled_environment = std::variant<Compiled_environment<2>, Compiled_environment<3>>;
 
 /// True if bytes begin as those of an image do.
@@ -42,7 +42,7 @@ bool is_compiled(std::span<const std::byte> bytes);
 /// \param certificate of the environment as it is now
 /// \param put is called with one piece after the other
 /// \pre no Reshaping of the environment is open
-/// Cost: linear; about 20 ms for 10^6 tetrahedra, and what `put` takes.
+/// Cost: linear; about 20 ms for 10^6 tetrahedra, and the time of `put`.
 template <int D>
 void write_compiled(const Environment<D>& environment, const Certificate& certificate,
                     const Groups<D>& groups, const std::function<void(std::span<const std::byte>)>& put);

@@ -62,7 +62,7 @@ struct Build_report {
   Facing_walls facing;
 };
 
-/// What became of the names of an environment that was compacted.
+/// The new names of an environment that was compacted.
 struct Compaction {
   static constexpr std::uint32_t none = 0xffffffffu;
 
@@ -75,8 +75,8 @@ struct Compaction {
 /// (after a split, of the split soup); point indices are those of the soup without the dropped points.
 ///
 /// It can be moved, in a struct or a vector with all that lies in it: the snapshot stays where it is, so that
-/// bodies, particles and locators go on. What was moved from throws Error(usage), but can be assigned to. No
-/// Reshaping of it may be open. Assigning to an environment ends it, as its destructor does.
+/// bodies, particles and locators go on. An environment that was moved from throws Error(usage), but can be
+/// assigned to. No Reshaping of it may be open. Assigning to an environment ends it, as its destructor does.
 template <int D>
 class Environment {
  public:
@@ -107,20 +107,20 @@ class Environment {
   /// Drops the map: vertices can still be moved, but no facet be opened or closed, no cell be filled or
   /// excavated, and no point inserted.
   void freeze();
-  /// Builds the map again from the snapshot, which stays as it is, with all names: what refused because the
-  /// environment was frozen works from then on. Does nothing unless it is frozen.
+  /// Builds the map again from the snapshot, which stays as it is, with all names: functions that refused a
+  /// frozen environment work from then on. Does nothing unless it is frozen.
   /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
   /// Cost: about 1 us a tetrahedron; memory 679 bytes a tetrahedron.
   void thaw();
 
   /// Gives back the memory that edits left behind, and puts cells that they added beside their neighbours, as
   /// if the environment had just been built: all indices and names in use, in order. Cells and points keep
-  /// their order; geometry and walls stay. For long runs of edits: without it, later edits reuse what earlier
-  /// ones left. With or without the map. It is an edit: bodies go on after Body::register_again(), particles
-  /// are located again, and a Locator is made anew. Until the next compaction the new names are kept for
-  /// bodies, in 20 bytes a tetrahedron.
+  /// their order; geometry and walls stay. For long runs of edits: without it, later edits reuse the memory
+  /// that earlier ones left. With or without the map. It is an edit: bodies go on after
+  /// Body::register_again(), particles are located again, and a Locator is made anew. Until the next
+  /// compaction the new names are kept for bodies, in 20 bytes a tetrahedron.
   /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
-  /// Cost: linear, about that of building; for a moment, the memory of both.
+  /// Cost: linear, about as much as building; for a moment, the memory of both.
   Compaction compact();
 
   /// All cells that have a point, solid ones too; of a pinched point part after part. Works without the map.
@@ -153,16 +153,16 @@ class Environment {
   /// Cost: constant.
   void excavate(Cell cell);
   /// Makes a free cell solid: its facets to free cells become walls. A cell that is solid already stays as it
-  /// is. What lies in the cell is not looked at: see Reshaping for that.
+  /// is. The residents of the cell are not looked at: see Reshaping for that.
   /// Cost: constant.
   void fill(Cell cell);
 
   /// Moves a vertex. Every cell of its star must stay exactly convex and positive, with exactly planar
   /// facets. Only the end position is checked: the path of a boundary vertex may lead through other cells.
   /// Names of cells and facets are kept; the loop of a facet may start at another vertex. Works without the
-  /// map. What moves in the environment is not looked at: see Reshaping for that.
-  /// Cost: about 2 us for each cell around the vertex; on the boundary also that of the boundary facets near
-  /// them; the first time linear in the number of facets, as where it goes far out of all others.
+  /// map. Bodies and particles are not looked at: see Reshaping for that.
+  /// Cost: about 2 us for each cell around the vertex; on the boundary also the cost of the boundary facets
+  /// near them; the first time linear in the number of facets, as where it goes far out of all others.
   void move_vertex(std::uint32_t point, const Point<D>& position);
 
   /// Splits a cell into the star of a new point strictly inside it, with one cell for each facet. Returns the

@@ -20,8 +20,8 @@ namespace cellwalk {
 template <int D>
 using Groups = std::map<std::string, Selection<D>>;
 
-/// Where the groups of a soup are, to be found in what is built of it: building may split cells and facets,
-/// and drop and merge points.
+/// The places of the groups of a soup, by which they are found in the environment built from it: building may
+/// split cells and facets, and drop and merge points.
 template <int D>
 class Group_places {
  public:

@@ -153,11 +153,11 @@ class Snapshot {
   }
   /// The number of facets whose plane could not be certified; they are always decided exactly.
   std::size_t uncertified_planes() const { return uncertified_planes_; }
-  /// The walls by clusters of cells, made where they are asked for.
+  /// The walls by clusters of cells, made where they are needed.
   const detail::Cell_clusters<D>& clusters() const { return clusters_; }
-  /// Where solid cells and membranes lie, found where it is asked for.
+  /// The places of solid cells and membranes, found where they are needed.
   const detail::Tissue_boxes<D>& tissue_boxes() const { return tissue_boxes_; }
-  /// What was edited lately. Not part of what a compiled environment holds.
+  /// The latest edits. They are not part of a compiled environment.
   const detail::Edit_log& edits() const { return edits_; }
 
   // --- state
@@ -184,7 +184,8 @@ class Snapshot {
   void set_impassable(Half_facet f, bool wall);
   /// Moves a point; call update_geometry() for all cells that contain it.
   void move_point(std::uint32_t index, const Point<D>& position) { points_[index] = position; }
-  /// The index that the next new point gets: that of the lowest point removed, or that after the last one.
+  /// The index that the next new point gets: the index of the lowest point removed, or the one after the
+  /// last.
   std::uint32_t next_point() const {
     return free_points_.empty() ? static_cast<std::uint32_t>(points_.size()) : *free_points_.begin();
   }
@@ -244,7 +245,7 @@ class Snapshot {
   Free_runs free_blocks_, free_vertices_;
   std::set<std::uint32_t> free_indices_, free_points_;
 
-  /// What is known of many cells at once is not of a cell that changes.
+  /// Forgets the boxes of many cells of which one changes.
   void forget(Cell cell) {
     clusters_.forget(cell);
     tissue_boxes_.forget(cell);

@@ -17,7 +17,7 @@ struct Split_report {
   std::size_t points_added = 0;         ///< interior points of stars
   std::size_t not_planar = 0;           ///< cells split because a facet is not exactly planar
   std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
-  std::size_t not_simplices = 0;        ///< valid cells split because simplices were asked for
+  std::size_t not_simplices = 0;        ///< valid cells split because simplices were requested
 };
 
 /// Which cells are split.

@@ -16,8 +16,8 @@ struct Implicit_shape {
   std::function<double(const Point<3>&)> depth;
   Point<3> low{}, high{};  ///< a box that contains the shape
   double cell_size = 1;    ///< edge of the lattice's cubes; a tetrahedron has about a twelfth of a cube
-  /// If not 0, what lies outside, up to a depth of minus this, is filled with solid cells: tissue around the
-  /// shape. At least 1.25 cell sizes; depth is then the distance to the surface, or nearly so, that far.
+  /// If not 0, the outside up to this distance is filled with solid cells: tissue around the shape. At least
+  /// 1.25 cell sizes; depth is then the distance to the surface, or nearly so, that far.
   double tissue = 0;
 };
 

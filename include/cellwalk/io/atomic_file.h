@@ -30,7 +30,7 @@ class Atomic_file final : public Output, public Byte_sink {
   /// \throw Error(other) if one fails; then nothing is left behind
   void commit() override;
 
-  /// From now on, what put() puts in place is there after a loss of power as well.
+  /// From now on, files that put() puts in place survive a loss of power.
   void make_durable() { is_durable_ = true; }
 
   void prepare() override;

@@ -47,8 +47,8 @@ std::string_view kind_name(const Mesh& mesh);
 ///        known, the problem and the remedy
 Mesh_file read_mesh(const std::filesystem::path& path);
 
-/// The same of the bytes of such a file, for what can be read only once.
-/// \param name stands for the file in errors, and tells the format if the content does not
+/// The same of the bytes of such a file, for sources that can be read only once.
+/// \param name stands for the file in errors, and determines the format if the content does not
 Mesh_file read_mesh(const std::filesystem::path& name, std::string bytes);
 
 /// A reader that is an optional part of the build.

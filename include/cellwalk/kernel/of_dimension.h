@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What was read from a file has a dimension that the program learns only then: access for programs of one.
+// Access for programs of one dimension to the content of files, whose dimension is known only when they are
+// read.
 #ifndef CELLWALK_KERNEL_OF_DIMENSION_H
 #define CELLWALK_KERNEL_OF_DIMENSION_H
 
@@ -11,8 +12,8 @@
 
 namespace cellwalk {
 
-/// What is held, such as the environment of an import, if it has dimension D.
-/// \throw Error(input) if it has the other
+/// The value held, such as the environment of an import, if it has dimension D.
+/// \throw Error(input) if it has the other dimension
 template <int D, template <int> class Kind>
 const Kind<D>& of_dimension(const std::variant<Kind<2>, Kind<3>>& any) {
   if (const Kind<D>* held = std::get_if<Kind<D>>(&any)) return *held;

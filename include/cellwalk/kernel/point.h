@@ -86,8 +86,8 @@ bool is_finite(const std::array<double, D>& a) {
 
 }  // namespace cellwalk
 
-// Exactness rests on IEEE arithmetic, in what headers compile as well. (gcc has -funsafe-math-optimizations
-// define the last two, clang only the first.)
+// Exactness rests on IEEE arithmetic, also in code that includes the headers. (gcc has
+// -funsafe-math-optimizations define the last two, clang only the first.)
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "cellwalk decides exactly and needs IEEE arithmetic: compile without -ffast-math, -Ofast and the like"

@@ -20,7 +20,7 @@
 
 namespace cellwalk {
 
-/// of_dimension<3>(any) is that of three dimensions, or an Error.
+/// of_dimension<3>(any) is the one of three dimensions, or an Error.
 using Any_environment = std::variant<Environment<2>, Environment<3>>;
 /// Of the same dimension.
 using Any_groups = std::variant<Groups<2>, Groups<3>>;
@@ -48,8 +48,8 @@ auto naming(const std::string& path, Work&& work) {
 ///
 /// A compiled environment (open_compiled()) is mapped, whatever its name, and was certified when it was
 /// written: nothing is certified again, and vertices in the same place stay as they are. It gets its map if
-/// options.keep_map asks for it, and is built of its cells if options.simplicial asks for simplices and it
-/// has others.
+/// options.keep_map is set, and is built of its cells if options.simplicial is set and it has others than
+/// simplices.
 /// \throw Error(input) if it is unreadable or contains no cells, Error(not_certified) with the cell and the
 ///        reason
 /// Cost: that of reading and of Environment::build(), or of open_compiled().

@@ -53,8 +53,8 @@ bool has_tetgen();
 /// \throw Error(usage) for options out of range, for a cell size that needs more than ten tetrahedra for each
 ///        of the added points, or if there is no TetGen
 /// \throw Error(not_certified) if TetGen fails or crashes, does not end in time, does not preserve the
-///        surface, or makes a flat tetrahedron, with each of its tolerances: what happened first, and where
-///        the surface is narrowest. TetGen runs in a process of its own, which has ended by then.
+///        surface, or makes a flat tetrahedron, with each of its tolerances: the first problem, and where the
+///        surface is narrowest. TetGen runs in a process of its own, which has ended by then.
 /// Cost: about 20 us a tetrahedron.
 Cell_soup<3> tetrahedralize(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles = {},
                             const Tetrahedralize_options& options = {},

@@ -34,8 +34,8 @@ struct Tissue_report {
 /// at most 32 to an edge.
 /// \pre the cells are exactly positive and do not overlap
 /// \throw Error(usage) for a thickness that does not lie between 2^-16 and 2^10 of the diagonal of the cells,
-///        or with which the box cannot be told from the cells in double precision; for the quality as
-///        tetrahedralize(); if there is no TetGen
+///        or with which the box cannot be distinguished from the cells in double precision; for the quality
+///        as tetrahedralize(); if there is no TetGen
 /// \throw Error(input) if there are no cells, or a facet of their boundary is not a triangle
 /// \throw Error(not_certified) as tetrahedralize(), also if parts of the boundary meet in one place without
 ///        sharing their points, as at slits

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The number of cells that edges of a given length lie in: what the cells of an environment make walks cost.
+// The number of cells that edges of a given length lie in: a measure of the cost of walks in an environment.
 #ifndef CELLWALK_QUERY_EDGE_CELLS_H
 #define CELLWALK_QUERY_EDGE_CELLS_H
 

@@ -48,9 +48,14 @@ struct Move_options {
 };
 
 /// Answers a motion from one point to another. A start on a wall with free space on several sides may belong
-/// to each of them: the side on which the motion gets furthest is chosen, in ties that with the cell of
+/// to each of them: the side on which the motion gets furthest is chosen, in ties the one with the cell of
 /// lowest index. With an exact kernel the time of a contact is exact; otherwise it is that of the walk,
 /// rounded.
+/// \param snapshot of the environment
+/// \param locator finds the cells of the start
+/// \param from,to the ends of the motion, finite
+/// \param options the kernel, the strategy and the rule for touches
+/// \param counts raised by the query
 /// \pre the locator is that of the snapshot; Touch::stop only with the exact kernel
 /// \throw Error(input) for a point that is not finite; Error(usage) as Locator::locate()
 /// Cost: that of locating the start and of the walk, for each side. Thread-safe, if each thread has its own

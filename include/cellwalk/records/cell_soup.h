@@ -55,6 +55,8 @@ struct Cell_soup {
 };
 
 /// Appends a tetrahedron; (b-a, c-a, d-a) must be right-handed for it to be positively oriented.
+/// \param soup receives four facets and a cell
+/// \param a,b,c,d indices of points of the soup
 inline std::size_t add_tetrahedron(Cell_soup<3>& soup, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                    std::uint32_t d) {
   soup.add_facet({a, c, b});

@@ -38,8 +38,8 @@ struct Scene_plane {
   Vector<D> normal{};
 };
 
-/// A part of an environment: a group, or what fulfils all conditions given, at least one. A cell belongs to
-/// it if the mean of its vertices lies in the shape and in front of the plane; a facet, if the mean of its
+/// A part of an environment: a group, or all that fulfils the conditions given, at least one. A cell belongs
+/// to it if the mean of its vertices lies in the shape and in front of the plane; a facet, if the mean of its
 /// vertices lies in the shape, and the means of its two cells on either side of the plane. A stitch belongs
 /// to it if the mean of its two points lies in the shape and in front of the plane.
 template <int D>
@@ -55,7 +55,7 @@ enum class Change_kind : std::uint8_t {
   excavate,  ///< solid cells become free
   fill,      ///< free cells become solid
   cut,       ///< solid cells are cut along a blade
-  sew        ///< what cuts parted is joined again, point by point
+  sew        ///< the sides of cuts are joined again, point by point
 };
 constexpr std::size_t change_kind_count = 6;
 
@@ -73,7 +73,7 @@ struct Environment_change {
   Change_kind kind = Change_kind::open;
   Environment_part<D> part;  ///< of cuts: none; of sutures: no group
   Blade_stroke<D> blade{};   ///< of cuts only
-  /// Before which step of a run it is made, from 1; what is refused is tried again before each step up to
+  /// The step of a run before which it is made, from 1; refused parts are tried again before each step up to
   /// `until`.
   std::uint32_t step = 1, until = 1;
 };

@@ -102,11 +102,11 @@ struct Pulsation {
   /// The motion runs through the environment as a wave in this direction, of this length; none: all walls
   /// move alike.
   std::optional<Vector<D>> wave;
-  /// The directions in which walls go are evened out along them so often: each becomes the mean of that of
-  /// its place and the mean of those beside it; 0: they are the normals.
+  /// The number of times that the directions in which walls go are evened out along them: each becomes the
+  /// mean of itself and of the mean of those beside it; 0: they are the normals.
   std::uint32_t even = 0;
-  /// Points between walls are smoothed in so many sweeps, where cells are worse than `quality_floor` on the
-  /// way; 0: they follow their neighbours only.
+  /// The number of sweeps in which points between walls are smoothed, where cells are worse than
+  /// `quality_floor` on the way; 0: they follow their neighbours only.
   std::uint32_t smooth = 0;
   double quality_floor = 0.2;  ///< from 0, a flat cell, to 1, a regular one
 };
@@ -143,7 +143,7 @@ struct Wall_relaxation {
 /// How the walls of an environment move.
 template <int D>
 struct Scene_walls {
-  bool push = true;                   ///< they push what they meet out of their way; otherwise they stop
+  bool push = true;                   ///< they push bodies out of their way; otherwise they stop
   std::vector<Scene_shape<D>> fixed;  ///< where nothing moves
   std::optional<Pulsation<D>> pulsation;
   std::optional<Soft_walls> soft;

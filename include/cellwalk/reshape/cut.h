@@ -53,7 +53,7 @@ struct Cut_point {
   double share;
 };
 
-/// What came of a cut. Of membranes, walls between free cells, edges count that cross a border of the slit.
+/// The outcome of a cut. Of membranes, walls between free cells, edges count that cross a border of the slit.
 struct Cut_report {
   std::size_t cells = 0;    ///< solid ones that the blade met: it passed an edge, or had a vertex
   std::size_t edges = 0;    ///< of solid cells that the blade passes, and of membranes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What comes of the moves of walls among bodies and particles.
+// The outcomes of the moves of walls among bodies and particles.
 #ifndef CELLWALK_RESHAPE_MOVE_H
 #define CELLWALK_RESHAPE_MOVE_H
 
@@ -43,7 +43,7 @@ struct Wall_hit : Contact<D> {
   std::array<double, 3> resident_weights{};
 };
 
-/// What came of the move of a vertex.
+/// The outcome of the move of a vertex.
 template <int D>
 struct Vertex_result {
   std::uint32_t point = 0;
@@ -55,7 +55,7 @@ struct Vertex_result {
   double share = 1;
 };
 
-/// What came of the moves of many vertices.
+/// The outcome of the moves of many vertices.
 template <int D>
 struct Move_report {
   std::vector<Vertex_result<D>> short_of_target;  ///< the last result of each vertex that did not arrive
@@ -65,7 +65,8 @@ struct Move_report {
 
 /// The counts of moves. They are machine-independent. Each attempt counts all it looks at anew: at candidates
 /// to stop at, after pushes, in each round, and for each choice of sides. Only `near` and `certified` are
-/// those of first attempts: of each pair of a vertex moved, or asked about, and something near it, once.
+/// those of first attempts: each pair of a vertex moved or tested and a feature of a resident near it counts
+/// once.
 struct Reshape_counts {
   std::uint64_t moves = 0;  ///< of vertices of the environment tried, those of candidates to stop at included
   std::uint64_t made = 0;

@@ -15,7 +15,7 @@
 
 namespace cellwalk {
 
-/// What came of a replacement of cells by others that cover the same region.
+/// The outcome of a replacement of cells by others that cover the same region.
 struct Replacement : Outcome {
   static constexpr std::uint32_t none = 0xffffffffu;
 
@@ -24,13 +24,13 @@ struct Replacement : Outcome {
   std::uint32_t point = none;
 };
 
-/// Which cells Reshaping::relax() looks at, and what it may do. Qualities are 6 sqrt(2) V / l^3 of a
-/// tetrahedron of volume V, l the root mean square of its edges, and 4 sqrt(3) A / (sum of squares of its
-/// edges) of a triangle of area A: 1 if regular, 0 if flat.
+/// The cells that Reshaping::relax() looks at, and the operations that it may try. The quality of a
+/// tetrahedron of volume V is 6 sqrt(2) V / l^3, l being the root mean square of its edges; the quality of a
+/// triangle of area A is 4 sqrt(3) A / (sum of squares of its edges). It is 1 if regular, 0 if flat.
 struct Relax_options {
   double good_enough = 0.3;  ///< cells of at least this quality are left alone
   int most_rounds = 4;       ///< through all cells that are not good enough
-  /// So many operations are made at most.
+  /// The largest number of operations.
   std::uint32_t most_operations = 1000;
   bool smooth = true, flip = true, split = true, collapse = true;
   /// Edges longer than this are split, shorter ones collapsed, in units of the mean of all edges around the
@@ -40,7 +40,7 @@ struct Relax_options {
   std::vector<std::uint32_t> keep{};
 };
 
-/// What Reshaping::relax() did.
+/// The outcome of Reshaping::relax().
 struct Relax_report {
   std::uint32_t smoothed = 0, flipped = 0, edges_removed = 0, split = 0, collapsed = 0;
   std::uint32_t tried = 0;   ///< cells that were not good enough

@@ -20,12 +20,12 @@ template <int D>
 struct Reshaping_state;
 }
 
-/// What a vertex of the environment does whose walls meet a resident.
+/// The reaction of a vertex of the environment whose walls meet a resident.
 enum class At_contact : std::uint8_t {
   stop,  ///< it stops at a verified position, there or just before
   hold,  ///< it stays where it was
-  /// What it meets is moved out of its way, by moves that are tested and stopped like any others; then it
-  /// tries again, and stops if that did not help.
+  /// The resident that it meets is moved out of its way, by moves that are tested and stopped like any
+  /// others; then it tries again, and stops if that did not help.
   push
 };
 
@@ -38,12 +38,12 @@ struct Vertex_move {
 
 struct Reshape_options {
   At_contact at_contact = At_contact::stop;
-  /// Moves of many vertices are tried in so many rounds: a vertex that would make a cell flat goes half of
-  /// the way to that, and has its next turn when the others moved.
+  /// The number of rounds in which moves of many vertices are tried: a vertex that would make a cell flat
+  /// goes half of the way to that, and has its next turn when the others moved.
   int most_rounds = 8;
-  /// By At_contact::push, a vertex tries to push what it meets out of its way so many times a move.
+  /// By At_contact::push, the number of times in a move that a vertex tries to push residents out of its way.
   int most_pushes = 16;
-  /// What is checked of bodies that are pushed, and what they do at other walls: by default they slide.
+  /// The checks of bodies that are pushed, and their reaction at other walls: by default they slide.
   /// Faces are swept as well if the body was last moved so.
   Body_options body{};
 };
@@ -53,7 +53,8 @@ struct Reshape_options {
 /// out of the way before; after each move they are registered as if the environment had always been so.
 /// Nothing else reads or changes the environment until finish(), and bodies are not moved. Once a move was
 /// made, a body that is not listed throws Error(usage) at its next use instead of missing a wall, and
-/// particles that are not listed must be located again. What is asked, or not made, changes nothing for them.
+/// particles that are not listed must be located again. Tests, and moves that are not made, change nothing
+/// for them.
 ///
 /// A move is made whole or not at all: an exact test of each wall at the vertex against each vertex, edge and
 /// face near it. Faces are looked at if the body was last moved with Sweep::faces (3D).
@@ -74,17 +75,17 @@ class Reshaping {
   Reshaping(Reshaping&&) noexcept;
   Reshaping& operator=(Reshaping&&) noexcept;
 
-  /// Moves a vertex to a target, or as far as options.at_contact says. What forbids a move is a result, not
-  /// an error. An error changes nothing.
+  /// Moves a vertex to a target, or as far as options.at_contact allows. An obstacle to a move is a result,
+  /// not an error. An error changes nothing.
   /// \throw Error(usage) if there is no such point, if a cell around it is not a simplex (see
   ///        Build_options::simplicial), for a particle that is not in its cell, and after finish();
   ///        Error(input) for a target that is not finite
   /// Degenerate cases: all are decided; where a rim passes a vertex or edge exactly, it may end on either
   /// side, see docs/moving.md, touches. A target equal to the position is reached.
   /// Cost: about 1 us with nothing near, 2 us in 10^6 cells that are not in the cache; some 20 signs more a
-  /// wall that is near something; exact numbers for what is touched; on the boundary of the environment up to
-  /// a few us more, and some 50 us near other parts of it. The first move in an environment takes 1 us for
-  /// each of its points.
+  /// wall that is near something; exact numbers for touches; on the boundary of the environment up to a few
+  /// us more, and some 50 us near other parts of it. The first move in an environment takes 1 us for each of
+  /// its points.
   Vertex_result<D> move(std::uint32_t point, const Point<D>& target);
 
   /// Moves many vertices, in order and backwards in turn, in rounds until all have arrived or none gets on.
@@ -93,8 +94,8 @@ class Reshaping {
   ///        otherwise the moves before that are made
   Move_report<D> move(std::span<const Vertex_move<D>> moves);
 
-  /// Says what move() would do by At_contact::hold, and where the vertex would be then; nothing moves. For
-  /// solvers that shorten a step to the first contact themselves.
+  /// Returns the result that move() would have by At_contact::hold, with the position that the vertex would
+  /// have; nothing moves. For solvers that shorten a step to the first contact themselves.
   /// \throw Error as move()
   /// Cost: that of move().
   Vertex_result<D> test_move(std::uint32_t point, const Point<D>& target);
@@ -108,9 +109,10 @@ class Reshaping {
 
   /// Makes a facet a wall, seen from either side.
   /// Refused if a vertex, an edge or a face would then be on both sides of it, as an edge that passes through
-  /// its inside. What only touches the facet is registered on a side of it on which the rest of its body can
-  /// be as well. Faces count if the body was last moved with Sweep::faces (3D); walls may appear inside of a
-  /// closed surface, and of a body in the plane, which has no faces. A facet that is a wall already stays so.
+  /// its inside. A vertex or an edge that only touches the facet is registered on a side of it on which the
+  /// rest of its body can be as well. Faces count if the body was last moved with Sweep::faces (3D); walls
+  /// may appear inside of a closed surface, and of a body in the plane, which has no faces. A facet that is a
+  /// wall already stays so.
   /// \throw Error as open(), and Error(usage) for a particle near that is not in its cell
   /// Degenerate cases: all are decided; see docs/cutting.md.
   /// Cost: about 1 us with nothing near; some signs an edge that passes it inside; exact numbers, up to a
@@ -132,13 +134,13 @@ class Reshaping {
 
   // Replacements of cells, all simplices, by others over the same region, between which there is no wall. No
   // body can be in the way of one: all that lies in the old cells is registered in the new ones, on the same
-  // side of all walls. What the shape of the environment forbids is a result with a reason, and changes
-  // nothing. The names of the old cells and of their half-facets are gone, those in contacts too, and later
-  // ones may be equal. Each throws Error(usage) for what does not exist, for a cell that is not a simplex, in
-  // a frozen environment, for a particle that is not in its cell, and after finish(); Error(input) for a
-  // position that is not finite.
-  // Cost: 3 to 4 us a new cell, whatever the size of the environment; more where what lies there passes
-  // ridges or vertices of cells exactly.
+  // side of all walls. A replacement that the shape of the environment forbids is a result with a reason, and
+  // changes nothing. The names of the old cells and of their half-facets are gone, those in contacts too, and
+  // later ones may be equal. Each throws Error(usage) for a name that does not exist, for a cell that is not
+  // a simplex, in a frozen environment, for a particle that is not in its cell, and after finish();
+  // Error(input) for a position that is not finite.
+  // Cost: 3 to 4 us a new cell, whatever the size of the environment; more where edges there pass ridges or
+  // vertices of cells exactly.
 
   /// Replaces a cell by the cells of a new point strictly inside it.
   Replacement insert_point(Cell cell, const Point<D>& position);
@@ -147,7 +149,7 @@ class Reshaping {
   /// position need not be on the edge. If a wall has the edge, it must lie on it exactly, and nothing may
   /// have to lie in these cells, nor rest on their walls: then walls stay where they are. Refused otherwise,
   /// and if the boundary has the edge.
-  /// Degenerate cases: what lies on the border of these cells may be on their side of it, or be beside them.
+  /// Degenerate cases: a resident on the border of these cells may be on their side of it, or be beside them.
   Replacement split_edge(std::uint32_t u, std::uint32_t v, const Point<D>& position);
 
   /// Replaces the two cells of a facet by three around the edge that joins their other vertices (2D: by two
@@ -160,7 +162,7 @@ class Reshaping {
   Replacement remove_edge(std::uint32_t u, std::uint32_t v);
 
   /// Removes a point by moving it along an edge into the other end. Refused if a wall or the boundary has it.
-  /// Later new points may get its index; Snapshot::is_point() says which are in use.
+  /// Later new points may get its index; Snapshot::is_point() tests whether one is in use.
   Replacement collapse(std::uint32_t u, std::uint32_t onto);
 
   /// Makes cells around some points better, worst first: flips and removals of edges, moves of vertices that
@@ -202,7 +204,7 @@ class Reshaping {
   /// blade, and on the boundary of the environment it stays closed. Membranes of triangles (2D: segments) are
   /// slit as wide as the opening, but where something has to lie beside them. Solid only retreats. All else
   /// is never refused; where something could not be split or parted, the cut is incomplete, and the report
-  /// says how much of it.
+  /// counts the parts.
   /// \throw Error(input) for a blade that is none or lies far off, or an opening that is no positive length;
   ///        Error(usage) if frozen or closed, and for a particle near not in its cell; before any change
   /// Cost: some 40 us a cell that the blade passes, and at the first time 0.2 us a cell of the environment.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What lies in an environment while it changes, and what came of a change.
+// The bodies and particles in an environment while it changes, and the outcome of a change.
 #ifndef CELLWALK_RESHAPE_RESIDENTS_H
 #define CELLWALK_RESHAPE_RESIDENTS_H
 
@@ -14,8 +14,8 @@
 
 namespace cellwalk {
 
-/// The bodies and particles in an environment. They must outlive what they are given to, and stay where they
-/// are in memory.
+/// The bodies and particles in an environment. They must outlive the object that they are given to, and stay
+/// where they are in memory.
 template <int D>
 struct Residents {
   std::vector<Body<D>*> bodies;
@@ -26,13 +26,13 @@ struct Residents {
 struct Resident {
   bool is_particle = false;
   std::uint32_t owner = 0;  ///< position of the body in Residents::bodies, or of the span in its particles
-  Body_feature feature = Body_feature::vertex;  ///< what of the body; a particle is a vertex
+  Body_feature feature = Body_feature::vertex;  ///< the kind of part; a particle is a vertex
   std::uint32_t number = 0;                     ///< of the vertex, edge, face or particle
 
   auto operator<=>(const Resident&) const = default;
 };
 
-/// What came of a change of an environment among them.
+/// The outcome of a change of an environment among them.
 struct Outcome {
   bool is_made = false;           ///< also if nothing had to be changed
   std::string reason;             ///< why not, empty if made: one sentence without a full stop

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Changes of an environment at steps of a run: which facets and cells they name, and what came of them.
+// Changes of an environment at steps of a run: the facets and cells that they name, and their outcomes.
 #ifndef CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
 #define CELLWALK_SIMULATION_CHANGE_SCHEDULE_H
 
@@ -23,7 +23,7 @@ struct Stitch {
   std::uint32_t point, onto;
 };
 
-/// What came of a change of one facet or cell, of a cut, or of a stitch of a suture.
+/// The outcome of a change of one facet or cell, of a cut, or of a stitch of a suture.
 struct Change_outcome {
   std::size_t change = 0;  ///< in the list of changes
   Change_kind kind = Change_kind::open;
@@ -49,9 +49,9 @@ class Change_schedule {
   bool is_due(std::uint32_t step) const;
 
   /// Makes all changes of a step, in order, and tries those again that were refused and have not run out.
-  /// A suture joins what the cuts of this schedule parted, the last first, where it gapes at that time.
-  /// What need not change has no outcome: a facet that is a wall is not closed, a facet of a solid cell
-  /// neither opened nor closed, a free cell not excavated.
+  /// A suture joins the points that the cuts of this schedule parted, the last first, where they gape at that
+  /// time. A facet or cell that need not change has no outcome: a facet that is a wall is not closed, a facet
+  /// of a solid cell neither opened nor closed, a free cell not excavated.
   /// \pre the steps of calls ascend
   /// \throw Error as Reshaping
   std::vector<Change_outcome> apply(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, std::uint32_t step);
@@ -67,7 +67,7 @@ class Change_schedule {
     std::size_t number = 0;
     Change_kind kind = Change_kind::open;
     std::uint32_t step = 0, until = 0;
-    // What is still to be changed.
+    // The changes still to be made.
     std::vector<With_points<Half_facet>> facets;
     std::vector<With_points<Cell>> cells;
     std::optional<Blade_stroke<D>> blade;

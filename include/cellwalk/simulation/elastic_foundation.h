@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walls that yield to what presses against them, and recover. See docs/scenes.md.
+// Walls that yield to bodies that press against them, and recover. See docs/scenes.md.
 #ifndef CELLWALK_SIMULATION_ELASTIC_FOUNDATION_H
 #define CELLWALK_SIMULATION_ELASTIC_FOUNDATION_H
 
@@ -18,11 +18,11 @@ namespace cellwalk {
 
 /// Each vertex of a wall hangs on a spring of its own (a Winkler foundation), and so yields by the compliance
 /// times the force on it. A body that a wall held back in a step presses it like a spring of compliance 1: of
-/// what was left of the motion against the wall, the wall yields by the share c/(1 + c) for its compliance c.
-/// That is divided among the corners of the facet met by their weights there, and spread over their
-/// neighbours. In each step a share of the yield is recovered.
-/// Unconditionally stable: walls go no further than was asked of the body, and what they cannot do, as
-/// something is in the way, is no yield.
+/// the rest of the motion against the wall, the wall yields by the share c/(1 + c) for its compliance c. That
+/// is divided among the corners of the facet met by their weights there, and spread over their neighbours. In
+/// each step a share of the yield is recovered.
+/// Unconditionally stable: walls go no further than the target of the body, and a motion that something
+/// blocks is no yield.
 template <int D>
 class Elastic_foundation {
  public:
@@ -43,8 +43,8 @@ class Elastic_foundation {
   /// Vertices that yield now or did so in the step before, with where they are to be if the walls do not move
   /// otherwise. Ascending.
   std::vector<Vertex_move<D>> targets() const;
-  /// Takes note of where walls got: what they did not reach is no yield.
-  /// \param moves those that were asked for
+  /// Takes note of where walls got: the rest of their way is no yield.
+  /// \param moves those that were requested
   void follow(std::span<const Vertex_move<D>> moves, const Move_report<D>& report);
 
   /// The yield of a vertex.
@@ -57,7 +57,7 @@ class Elastic_foundation {
  private:
   using Increments = std::vector<std::pair<std::uint32_t, Vector<D>>>;
   void spread(Increments& increments) const;
-  /// One that knows no vertex yet.
+  /// One without vertices yet.
   Elastic_foundation(const Snapshot<D>& snapshot, const Soft_walls& soft)
       : snapshot_(&snapshot), soft_(soft) {}
   /// True if all that was read refers to something.

@@ -47,7 +47,7 @@ class Moving_body {
   bool has_arrived() const {
     return std::visit([](const auto& moving) { return moving.has_arrived(); }, kind_);
   }
-  /// Calls use() with the body as what it is.
+  /// Calls use() with the body as its own kind.
   template <class Use>
   decltype(auto) visit(const Use& use) const {
     return std::visit(use, kind_);

@@ -21,20 +21,20 @@ namespace cellwalk {
 /// dynamics (Macklin, Mueller, Chentanez 2016) with velocities from the positions that were reached. Vertices
 /// of the boundary stay. Points between free cells follow those around them.
 ///
-/// What it wants is carried out by Reshaping as far as it is free: tissue tunnels through nothing.
+/// Reshaping carries its motion out as far as it is free: tissue tunnels through nothing.
 template <int D>
 class Tissue {
  public:
   /// Reads where the points are now: without tension they are at rest there, with tension edges are longer
   /// than they would be.
   /// \param fixed vertices in these stay
-  /// \throw Error(usage) for a material whose numbers are not as Tissue_material says; Error(input) if there
-  ///        is no solid cell, or one that is not a simplex
+  /// \throw Error(usage) for a material whose numbers are out of the ranges of Tissue_material; Error(input)
+  ///        if there is no solid cell, or one that is not a simplex
   /// Cost: that of sorting the edges.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material, std::span<const Scene_shape<D>> fixed);
 
-  /// Where points are to be after a step: what bodies pressed in the last step of a world gives way, the rest
-  /// follows. Ascending; points that hardly move are left out.
+  /// Where points are to be after a step: tissue that bodies pressed in the last step of a world gives way,
+  /// the rest follows. Ascending; points that hardly move are left out.
   /// \pre follow_changes() was called after changes
   /// \throw Error(usage) if it was not, and there are new points; Error(input) naming a point whose motion is
   ///        not finite
@@ -42,14 +42,14 @@ class Tissue {
   std::vector<Vertex_move<D>> targets(const World<D>& world);
   /// Takes note of where the points got.
   void follow();
-  /// Goes on with the cells as they are now, after some were cut, excavated or filled: what is solid only now
-  /// is at rest where it was when the tissue was made. Where no solid cell is left, nothing moves.
+  /// Goes on with the cells as they are now, after some were cut, excavated or filled: cells that became
+  /// solid are at rest where they were when the tissue was made. Where no solid cell is left, nothing moves.
   /// \param points that cuts made, in order; new points that are not among them are at rest where they are
   /// Cost: that of making it.
   void follow_changes(std::span<const Cut_point> points);
 
-  /// The greatest ratio of an edge to what it would be without tension. Edges of no length at rest do not
-  /// count: those across a cut that was filled.
+  /// The greatest ratio of the length of an edge to its length without tension. Edges of no length at rest do
+  /// not count: those across a cut that was filled.
   double largest_stretch() const;
   std::size_t edge_count() const { return edges_.size(); }
 
@@ -62,7 +62,7 @@ class Tissue {
     std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> corners;
     double rest;  ///< D! times its volume
   };
-  /// One that knows no cell yet.
+  /// One without cells yet.
   Tissue(const Snapshot<D>& snapshot, const Tissue_material& material)
       : snapshot_(&snapshot), material_(material) {}
   /// True if all that was read refers to something.

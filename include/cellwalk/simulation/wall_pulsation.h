@@ -15,11 +15,11 @@
 
 namespace cellwalk {
 
-/// A wall vertex goes to and fro along its normal, the mean of those of the walls around it weighted by their
-/// sizes. Points between walls follow smoothly, so that cells keep their shapes; parts of the scene that are
-/// fixed, and points on the boundary of the environment that belong to solid cells only, stay. Toward the
-/// fixed parts, the motion fades over ten amplitudes; it also grows from nothing during the first period.
-/// Positions are those of the start, moved: they do not drift, whatever walls have met.
+/// A wall vertex goes to and fro along its normal, the mean of the normals of the walls around it, weighted
+/// by their sizes. Points between walls follow smoothly, so that cells keep their shapes; parts of the scene
+/// that are fixed, and points on the boundary of the environment that belong to solid cells only, stay.
+/// Toward the fixed parts, the motion fades over ten amplitudes; it also grows from nothing during the first
+/// period. Positions are those of the start, moved: they do not drift, whatever walls have met.
 ///
 /// With Pulsation::even, the normals are evened out along the walls before, so that walls beside each other
 /// go alike and flat cells across edges of a wall are not inverted. With Pulsation::smooth, points between

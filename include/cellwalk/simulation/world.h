@@ -62,8 +62,9 @@ class World {
   ///        moved then, and the world throws Error(usage) from then on.
   void step();
 
-  /// Moves points of the environment with everything in it, one after the other; what they meet stays where
-  /// it is or is pushed out of the way, as the options say. Bodies that are pushed are checked as in steps.
+  /// Moves points of the environment with everything in it, one after the other; a body or particle that they
+  /// meet stays where it is or is pushed out of the way, by the options. Bodies that are pushed are checked
+  /// as in steps.
   /// \pre `environment` is that of the snapshot
   /// \throw Error(usage) if it is not, or was edited since the world was made; and as Reshaping::move()
   /// Cost: that of Reshaping::move().
@@ -78,7 +79,7 @@ class World {
                      const Relax_options& options, Reshape_counts& counts);
 
   /// Makes the changes of facets and cells that are due before the step that is next, with everything that
-  /// moves in the environment; what is held stays as it is.
+  /// moves in the environment; facets and cells that are held stay as they are.
   /// \pre `environment` is that of the snapshot and of the schedule
   /// \throw Error(usage) if it is not, is frozen, or was edited since the world was made
   /// Cost: reading all positions if something is due, and that of Reshaping::open() and the like.
@@ -169,10 +170,11 @@ class World {
   std::vector<Contact<D>> timed_contacts_;
   Walk_counts counts_;
 
-  /// What is advanced here, by World_part: all, unless other processes advance the rest.
+  /// The particles and bodies that are advanced here, by World_part: all, unless other processes advance the
+  /// rest.
   std::pair<std::uint32_t, std::uint32_t> own_particles_;  ///< the first, and the one after the last
   std::vector<std::uint32_t> own_bodies_;
-  /// A body that another process advances: how it was when that last told.
+  /// A body that another process advances: its state in the last message of that process.
   struct Remote_body {
     std::vector<Point<D>> positions;
     std::vector<std::uint32_t> cells;

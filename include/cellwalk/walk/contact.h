@@ -27,13 +27,13 @@ struct Contact {
   /// wall; if an edge is blocked by an edge or vertex, the direction perpendicular to both. Always against
   /// the motion; docs/bodies.md describes the cases in which these would not be.
   Vector<D> normal{};
-  Contact_kind kind = Contact_kind::facet;  ///< what of the wall is met
+  Contact_kind kind = Contact_kind::facet;  ///< the kind of feature of the wall that is met
   /// The vertex of the wall at this position of its loop (kind vertex), or the edge from there to the next
   /// vertex (kind edge).
   std::uint16_t corner = 0;
   Half_facet facet = Half_facet::none;       ///< the wall seen from the free side; names its dart
   Cell cell = Cell::none;                    ///< in which the motion ends
-  Body_feature body = Body_feature::vertex;  ///< what of the body meets the wall
+  Body_feature body = Body_feature::vertex;  ///< the kind of feature that meets the wall
   std::uint32_t vertex = 0;                  ///< of a Body: the vertex that moves
   std::uint32_t feature = 0;  ///< of a Body: the number of its vertex, edge or face that meets the wall
   std::shared_ptr<const Exact_fraction> fraction;  ///< see exact_time()

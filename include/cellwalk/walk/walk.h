@@ -77,6 +77,11 @@ struct Walk_result {
 
 /// Walks from a particle's position to a target. Touching a wall is no contact, crossing it is. Paper:
 /// section II.
+/// \param snapshot in which the particle lies
+/// \param particle the start, with its cell
+/// \param target finite
+/// \param counts raised by the walk
+/// \param options the strategy, and vectors to which the path is appended
 /// \pre particle.position lies in the closure of particle.cell
 /// \throw Error(usage) for a particle without a cell, or in one that an edit removed, if its name is not
 ///        reused: locate yours again after cells were replaced; Error(input) for a target that is not finite;
@@ -93,7 +98,7 @@ Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 
 /// Computes the time, point and normal of a contact of the motion from a to b, if the walk omitted them
 /// (Walk_options::locates_contact); otherwise it changes nothing.
-/// Cost: 0.2 us, more if only exact numbers tell how the time is rounded.
+/// Cost: 0.2 us, more if only exact numbers decide how the time is rounded.
 template <int D>
 void locate_contact(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Contact<D>& contact);
 
@@ -140,6 +145,10 @@ inline bool certainly_inside(const Snapshot<D>& snapshot, Cell cell, const Point
 
 /// The end of a free walk that planes alone decide: the cell whose interior contains the target. Cell::none,
 /// without counting a walk, if a wall is met or anything is undecided.
+/// \param snapshot in which the particle lies
+/// \param from the start, with its cell
+/// \param target the end of the walk
+/// \param counts raised by the walk
 /// \param crossed if not null, receives the facets crossed
 /// Cost: that of walk() without its report.
 template <int D>
@@ -153,6 +162,11 @@ Walk_result<D> move_by_walk(const Snapshot<D>& snapshot, Particle<D>& particle, 
 }  // namespace detail
 
 /// Moves a particle to the target if the walk arrives; otherwise leaves it in place and returns the contact.
+/// \param snapshot in which the particle lies
+/// \param particle moved only if the walk arrives
+/// \param target finite
+/// \param counts raised by the walk
+/// \param options as for walk()
 /// \throw Error as walk(), with nothing changed
 template <class Kernel = Exact, int D>
 inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,

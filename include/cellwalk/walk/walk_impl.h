@@ -39,7 +39,7 @@ class Particle_walk {
     if (Kernel::uses_certificates && options.strategy == Walk_strategy::certified)
       planes_b_ = snapshot.frame().map(b_, y_b_);
     check_has_planes(snapshot, cell_);
-    if (planes_b_) return;  // what lies in the frame is finite
+    if (planes_b_) return;  // points in the frame are finite
     check_finite(b_, "the target of a motion");
     map_start();
   }
@@ -213,7 +213,7 @@ class Particle_walk {
     }
   }
 
-  /// Crosses facets as long as find_exit proves a passable exit; returns what it proves of the last cell.
+  /// Crosses facets as long as find_exit proves a passable exit; returns its proof for the last cell.
   template <class Find_exit>
   Certified_exit follow(Find_exit find_exit) {
     // The state of the walk in registers.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The region of a whole body, by a search from the cells of its vertices.
 #include "clear_region.h"
 
 #include "region_search.h"

@@ -19,8 +19,8 @@
 
 namespace cellwalk::detail {
 
-/// An open box cut by open half-spaces, without a point of a wall: what is spanned by points in it meets
-/// none. Edits of the environment void it.
+/// An open box cut by open half-spaces, without a point of a wall: the hull of points in it meets none. Edits
+/// of the environment void it.
 template <int D>
 class Clear_region {
  public:
@@ -116,13 +116,13 @@ class Clear_region {
   Particle<D> anchor_;
 };
 
-/// What a region is to hold.
+/// The points that a region is to hold, and the limits of its search.
 template <int D>
 struct Region_request {
   std::span<const Point<D>> positions;  ///< as many of these as possible,
   std::span<const Point<D>> targets;    ///< and of these,
-  double steps_ahead = 36;              ///< and where so many more steps of that kind would lead
-  double steps_around = 4;              ///< and a margin of so many steps on all sides
+  double steps_ahead = 36;              ///< and where this number of further steps of that kind would lead
+  double steps_around = 4;              ///< and a margin of this number of steps on all sides
   double margin = 0;                    ///< and one more, of this length
   bool keeps_all = false;               ///< without one of the positions, there is no region
   std::size_t most_planes = 6;          ///< it is cut by; at most Clear_region::most_planes
@@ -138,9 +138,9 @@ struct Region_effort {
   bool is_exhausted = false;  ///< true if there were more than might be looked at
 };
 
-/// A region about a particle, by a flood of the cells that it meets: walls are cut off, and what was not
-/// looked at, if possible so that all positions and targets are kept. None if a wall comes too close to the
-/// particle, the positions lie in too many cells, or what is asked for is not finite.
+/// A region about a particle, by a flood of the cells that it meets: walls and cells that were not looked at
+/// are cut off, if possible so that all positions and targets are kept. None if a wall comes too close to the
+/// particle, the positions lie in too many cells, or the request is not finite.
 /// \pre the anchor satisfies I1, and is one of the positions; as many targets as positions, or none
 /// Cost: about 20 ns a cell met, 100 ns a wall.
 template <int D>

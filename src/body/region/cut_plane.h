@@ -55,9 +55,9 @@ Vector<D> outward(const Cell_view<D>& cell, std::size_t i) {
     return cross(edge, cell.point(loop[2]) - u);
 }
 
-/// The half-space before a facet in a direction, made smaller by what is rounded. None if nothing can be
-/// said.
-/// \param sizes the largest size of each coordinate of points that are asked about
+/// The half-space before a facet in a direction, made smaller by the bound of the rounding. None if nothing
+/// is certain.
+/// \param sizes the largest size of each coordinate of points to be tested
 template <int D>
 std::optional<Cut_plane<D>> plane_before(const Cell_view<D>& cell, std::size_t i, const Vector<D>& normal,
                                          const Point<D>& sizes) {

@@ -52,7 +52,7 @@ class Open_box {
  private:
   static constexpr std::size_t lanes = 2 * D;  ///< each bound twice, as the coordinates of two points lie
 
-  /// Whether a pair of lanes holds what lies from `low` to `high`. The last holds the last two coordinates.
+  /// Whether a pair of lanes holds all from `low` to `high`. The last holds the last two coordinates.
   Truth2 between(std::size_t pair, Double2 low, Double2 high) const {
     // A NaN fails the other comparison.
     return both(not_at_most(low, load_aligned(low_.data() + 2 * pair)),

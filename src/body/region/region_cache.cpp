@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rules by which the region of a body is searched, kept and given up.
 #include "region_cache.h"
 
 #include <algorithm>
@@ -10,10 +11,11 @@ namespace {
 constexpr std::uint32_t backoff_with_targets = 6;
 /// After one that lost positions; twice as many after each of those in a row.
 constexpr std::uint32_t least_backoff = 1, most_backoff = 64, most_backoff_of_little = 512;
-/// A search may look at so many cells: it must not cost more than the tests it saves.
+/// The largest number of cells of a search, which must not cost more than the tests it saves.
 constexpr std::size_t cells_per_vertex = 128, least_cells = 64, most_cells = 4096;
 
-/// The walls about a body whose parts have regions are found by clusters: of so many, and so many walls.
+/// The largest numbers of clusters and of walls in the search for walls about a body whose parts have
+/// regions.
 constexpr std::size_t most_body_clusters = 64;
 constexpr std::size_t walls_per_vertex = 2, least_body_walls = 128, most_body_walls = 1024;
 

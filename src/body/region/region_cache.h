@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The region free of walls in which a body moves without tests, and what is stale of the body since. Theory:
-// docs/bodies.md, clearance.
+// The region free of walls in which a body moves without tests, and the vertices and edges that are stale
+// since. Theory: docs/bodies.md, clearance.
 #ifndef CELLWALK_BODY_REGION_REGION_CACHE_H
 #define CELLWALK_BODY_REGION_REGION_CACHE_H
 
@@ -65,7 +65,7 @@ class Region_cache {
                       std::span<const Point<D>> positions) const {
     return outside_ != 0 || !found || !found->holds_all(positions);
   }
-  /// Takes over what was found.
+  /// Takes over the result of a search.
   /// \pre set_outside() was called where that changes
   /// Returns true if it holds the body and all targets.
   bool take(const std::optional<Clear_region<D>>& found, std::span<const Point<D>> targets,
@@ -84,7 +84,7 @@ class Region_cache {
     return are_all_stale_ || std::ranges::any_of(is_vertex_stale_, is_set) ||
            std::ranges::any_of(is_edge_stale_, is_set);
   }
-  /// Marks vertex by vertex what was marked at once.
+  /// Marks each vertex after all were marked at once.
   void spread_marks();
   bool is_vertex_stale(std::uint32_t vertex) const { return is_vertex_stale_[vertex]; }
   bool is_edge_stale(std::uint32_t edge) const { return is_edge_stale_[edge]; }
@@ -96,14 +96,14 @@ class Region_cache {
     a(search_backoff_, target_backoff_, next_backoff_, steps_ahead_, anchor_vertex_);
   }
 
-  /// True if what was read is that of so many vertices and edges.
+  /// True if the state that was read belongs to this number of vertices and edges.
   bool is_consistent(std::size_t vertices, std::size_t edges) const {
     return is_outside_.size() == vertices && outside_neighbours_.size() == vertices &&
            is_vertex_stale_.size() == vertices && is_edge_stale_.size() == edges && outside_ <= vertices &&
            (vertices == 0 || anchor_vertex_ < vertices);
   }
 
-  /// The vertex is registered now: its edges are what is stale.
+  /// The vertex is registered now: only its edges are stale.
   void pass_mark_on(std::uint32_t vertex, const Body_topology& topology);
 
  private:
@@ -122,7 +122,7 @@ class Region_cache {
   std::uint32_t search_backoff_ = 0;  ///< steps until a region is looked for that holds all positions
   std::uint32_t target_backoff_ = 0;  ///< the same for targets, while all positions are held
   std::uint32_t next_backoff_ = 4;    ///< steps if that finds none
-  double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next region is asked to hold
+  double steps_ahead_ = Region_request<D>{}.steps_ahead;  ///< that the next region is to hold
   std::uint32_t anchor_vertex_ = 0;
 };
 

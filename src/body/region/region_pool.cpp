@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice of regions for the stars of vertices, and the limits of the searches for them.
 #include "region_pool.h"
 
 #include <cellwalk/internal/environment/cell_cluster.h>
@@ -10,15 +11,16 @@ namespace {
 
 /// If there are no more clusters, all are made before the first step.
 constexpr std::uint32_t clusters_at_once = 1024;
-/// A search may look at so many cells.
+/// The largest numbers of clusters and walls of a search.
 constexpr std::size_t most_clusters = 64, most_walls = 256;
-/// Those of a step at so many walls, so that no step is much longer than others: one more search may begin.
+/// The largest number of walls of all searches in a step, so that no step is much longer than others: one
+/// more search may begin.
 constexpr std::size_t least_walls_a_step = 128, walls_a_vertex = 4;
 /// Moves without a search after one in vain; twice as many after each of those in a row.
 constexpr std::uint8_t least_wait = 4, most_wait = 128;
-/// There are so many regions at most, or one for so many vertices.
+/// The largest number of regions, or one for this number of vertices if those are more.
 constexpr std::size_t least_places = 64, vertices_a_place = 4;
-/// Among so many regions, one is looked for before a new one is.
+/// The number of regions that are tried before a new one is searched.
 constexpr std::size_t most_tried = 64;
 /// The margin about a star, in its sizes.
 constexpr double least_margin = 0.05, most_margin = 16;
@@ -124,7 +126,7 @@ void Region_pool<D>::stay_in(std::uint32_t vertex, int region, const Point<D>& p
   known = kept;
 }
 
-/// True if a region holds a vertex and its neighbours: then they know it.
+/// True if a region holds a vertex and its neighbours: then it is listed for them.
 template <int D>
 bool Region_pool<D>::take_in(std::uint32_t vertex, int region, std::span<const Point<D>> positions,
                              const Body_topology& topology) {

@@ -17,13 +17,13 @@
 
 namespace cellwalk::detail {
 
-/// Each vertex knows some of the regions that hold its position.
+/// Each vertex has a list of some of the regions that hold its position.
 template <int D>
 class Region_pool {
  public:
   Region_pool(std::size_t vertices, const Body_certificates& certificates);
 
-  /// True if regions of parts of the body are used: it is large enough, and it is asked for.
+  /// True if regions of parts of the body are used: it is large enough, and the certificates include them.
   bool is_used() const { return is_used_; }
   /// True if some region is known to hold the vertex.
   bool holds(std::uint32_t vertex) const { return !known_.empty() && known_[vertex][0] != none; }
@@ -63,7 +63,7 @@ class Region_pool {
   /// Edits of the environment void all regions.
   void clear();
 
-  /// All that a copy has, but what follows from the certificates, by which it was made.
+  /// All members of a copy but those that follow from its certificates, by which it was made.
   template <class Archive>
   void archive(Archive& a) {
     std::vector<std::array<int, places_known>> known(known_.size());

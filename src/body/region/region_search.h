@@ -26,13 +26,13 @@
 
 namespace cellwalk::detail {
 
-/// A box cut at so many steps from the body will do; nearer to it, a half-space is tried.
+/// The number of steps from the body at which a cut of the box will do; nearer to it, a half-space is tried.
 constexpr double enough_steps = 4;
 /// How often a direction is turned to part two sets of points.
 constexpr int most_turns = 6;
-/// Half the extent of the frame, and what is rounded.
+/// Half the extent of the frame, and a margin for rounding.
 constexpr double frame_and_more = 1 + 0x1p-20;
-/// Cells of so many blocks are looked at in one go.
+/// The number of blocks whose cells are looked at in one go.
 constexpr std::size_t blocks_at_once = 16;
 
 template <int D>
@@ -83,7 +83,7 @@ class Region_search {
     for (const Met_wall<D>& wall : walls) {
       if (!is_mapped_) reach = Frame_box<D>(snapshot_.frame(), box());
       is_mapped_ = true;
-      // Most are beyond what was cut off before.
+      // Most are beyond the planes that were cut off before.
       if (wall.is_met_by(reach) && !cut_off(wall.facet())) return false;
     }
     return region_.holds(region_.anchor().position);
@@ -114,7 +114,7 @@ class Region_search {
   bool visit(Cell cell) {
     const std::size_t blocks = snapshot_.block_count(cell);
     for (std::size_t begin = 0; begin < blocks; begin += blocks_at_once) {
-      // A bit a facet; lanes without one are met where the planes say nothing.
+      // A bit a facet; lanes without one are met where the planes decide nothing.
       std::uint64_t met = 0, walls = 0;
       if (!is_mapped_) map_box();
       const std::size_t end = std::min(blocks, begin + blocks_at_once);
@@ -147,8 +147,8 @@ class Region_search {
     return true;
   }
 
-  /// Asks for what visit() will need: in a large environment the cells are not in the cache, and so they come
-  /// side by side.
+  /// Fetches the data that visit() will need: in a large environment the cells are not in the cache, and so
+  /// they come side by side.
   void prefetch(Cell cell) const {
     const Plane_block<D>* planes = snapshot_.blocks(cell);
     for (std::size_t b = 0; b < snapshot_.block_count(cell); ++b) __builtin_prefetch(planes + b);
@@ -345,7 +345,7 @@ class Region_search {
 
   /// A direction in which a facet lies beyond the positions to keep, if they are convexly apart and it is
   /// soon found: it is turned to the furthest of the points and the nearest of the facet, until they are in
-  /// order. Any direction will do; cut_by_plane() says what it is worth.
+  /// order. Any direction will do; cut_by_plane() computes its worth.
   Vector<D> apart(const Cell_view<D>& cell, std::size_t i) const {
     const auto loop = cell.loop(i);
     Vector<D> normal = outward(cell, i);
@@ -376,7 +376,7 @@ class Region_search {
   const Region_request<D>& request_;
   Region_effort& effort_;
   Box<D> kept_, wanted_;  ///< of positions, and with the targets
-  // Of both, what the region holds.
+  // The positions and targets that the region holds.
   std::span<const Point<D>> positions_, targets_;
   std::vector<Point<D>> positions_left_, targets_left_;
   Clear_region<D> region_;

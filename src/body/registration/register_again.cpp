@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sides of walls of a body before edits, by the new names of cells and facets.
 #include "register_again.h"
 
 #include <cellwalk/kernel/policies.h>
@@ -14,7 +15,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// What is known of a body by names of today.
+/// The registration of a body before edits, by the names of today.
 template <int D>
 class Known_names {
  public:

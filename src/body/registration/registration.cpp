@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for sides that agree along all edges: each choice narrows those of the neighbours.
 #include "registration.h"
 
 #include <cellwalk/internal/edge/chain_as_before.h>
@@ -35,8 +36,8 @@ class Registration {
 
   Registered<D> run() {
     for (std::uint32_t e = 0; e < soup_.edges.size(); ++e) narrow_all(e);
-    // What is left agrees edge by edge. A vertex with a choice takes one side, and its neighbours follow.
-    // Those that can stay where they were go first, so that none that cannot makes them leave.
+    // The sides that are left agree edge by edge. A vertex with a choice takes one side, and its neighbours
+    // follow. Those that can stay where they were go first, so that none that cannot makes them leave.
     for (const bool can_stay : {true, false})
       for (std::uint32_t v = 0; v < sides_.size(); ++v)
         if (sides_[v].size() > 1 && is_as_before(v, sides_[v].front()) == can_stay) choose(v);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sweeps of the faces at a vertex: those with a volume, flat ones, and the wedges between them.
 #include "body_faces.h"
 
 #include <cellwalk/internal/edge/flat_faces.h>
@@ -36,8 +37,8 @@ struct Wedge {
   bool is_above = false, is_below = false;
 };
 
-/// What comes between faces that share an edge of a vertex. The edge may pass a wall in the plane of its
-/// motion on either side, but if there are faces on both sides of the plane, one of them passes it on the
+/// The walls that come between faces that share an edge of a vertex. The edge may pass a wall in the plane of
+/// its motion on either side, but if there are faces on both sides of the plane, one of them passes it on the
 /// other one.
 void sweep_wedges(const Body_state<3>& body, std::uint32_t vertex, const Vertex_path<3>& path,
                   std::optional<Contact<3>>& first, Face_counts& counts) {
@@ -67,7 +68,7 @@ void sweep_wedges(const Body_state<3>& body, std::uint32_t vertex, const Vertex_
   }
 }
 
-/// What a vertex takes along.
+/// The edges and faces that a vertex takes along.
 struct Star_of_vertex {
   std::vector<Edge_at_vertex> edges;
   std::vector<Face_at_vertex> faces;
@@ -92,7 +93,7 @@ Star_of_vertex star_of(const Body_state<3>& body, const Move_scratch<3>& scratch
   return star;
 }
 
-/// What comes between parts of the body that have the vertex alone in common.
+/// The walls that come between parts of the body that have the vertex alone in common.
 void sweep_parts(const Body_state<3>& body, const Move_scratch<3>& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {
   if (body.topology.is_joined_at(vertex)) return;
@@ -104,8 +105,8 @@ void sweep_parts(const Body_state<3>& body, const Move_scratch<3>& scratch, std:
   if (!first || is_before(*contact, *first)) first = *contact;
 }
 
-/// What faces that moved in their planes rest on after the move, as agreed with all that is joined to them;
-/// or a contact, if they cannot agree.
+/// The supporting walls of faces that moved in their planes, as agreed with all that is joined to them; or a
+/// contact, if they cannot agree.
 /// \pre all else is free
 void settle_flat_faces(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
                        const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts) {

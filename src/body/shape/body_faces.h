@@ -28,13 +28,13 @@ std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& count
 /// \throw Error(code) naming the face
 [[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code);
 
-/// Before faces are swept after moves that left them alone: registers them all, so all that they are asked
-/// about is needed.
+/// Before faces are swept after moves that left them alone: registers them all, for which all vertices and
+/// edges are needed.
 /// \throw Error(usage) if a wall pierces one
 void take_up_faces(Body_state<3>& body, Body_counts& counts);
 
-/// Sweeps the faces of a vertex that goes a way: puts the first contact in, or into the scratch what they
-/// rest on then.
+/// Sweeps the faces of a vertex on its way: stores the first contact, or the supporting walls after the move
+/// in the scratch.
 /// \pre its edges were swept, and their chains are in the scratch
 void sweep_faces(const Body_state<3>& body, Move_scratch<3>& scratch, std::uint32_t vertex,
                  const Vertex_path<3>& path, std::optional<Contact<3>>& first, Face_counts& counts);

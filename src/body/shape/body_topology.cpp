@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The checks of edges and faces, and the tables of those at each vertex.
 #include "body_topology.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice of certificates for a body, whose regions begin anew with it.
 #include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/body/certificates.h>
 

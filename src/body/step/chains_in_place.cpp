@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Chains confirmed or relinked from the stored corners of their facets, without a walk.
 #include "chains_in_place.h"
 
 #include <algorithm>

@@ -18,7 +18,7 @@
 namespace cellwalk::detail {
 
 /// The words of the edges of a vertex: the facets that it crossed, followed by the chain of the edge, freely
-/// reduced. The facets crossed, and what is found out about them, are in the scratch of the body.
+/// reduced. The facets crossed and their corners are in the scratch of the body.
 template <int D>
 class Edge_words {
  public:
@@ -91,7 +91,7 @@ class Chains_in_place {
   /// \param moved the chain of a free edge; it is left undefined otherwise
   /// \pre the edge is not stale
   Relink_answer relink(const Corner& corner, const Particle<D>& from, Half_facet wall, Moved_chain<D>& moved);
-  /// Counts what was proved; that of a move that is decided otherwise is counted there.
+  /// Adds the counts of proofs; those of a move that is decided otherwise are counted there.
   void add_to(Edge_counts& counts) const {
     counts.edges += edges_;
     counts.same_cell += same_cell_;
@@ -119,26 +119,26 @@ extern template class Edge_words<3>;
 extern template class Chains_in_place<2>;
 extern template class Chains_in_place<3>;
 
-/// True if chains may be confirmed in place: a sweep allows it, and touching is free, or nothing was touched
-/// and nothing is by what certainly passes the interiors of facets.
+/// True if chains may be confirmed in place: a sweep allows it, and touching is free, or nothing was touched,
+/// and an edge that certainly passes the interiors of facets touches nothing.
 template <int D>
 bool may_be_in_place(const Body_state<D>& body, const Sweep_options& sweep, bool is_apart) {
   return body.certificates.chains_in_place && sweep.certificates && (sweep.touch == Touch::pass || is_apart);
 }
 
-/// What was found out of a move that is not free by planes and edges in place alone.
+/// The results for a move that planes and edges in place alone do not prove free.
 template <int D>
 struct Settled_move {
   /// The vertex at its target, if planes alone prove its way free: the facets crossed are in the scratch.
   std::optional<Particle<D>> to;
-  std::size_t free_edges = 0;  ///< so many, the first ones, are free, and their chains are in the scratch
+  std::size_t free_edges = 0;  ///< the number of first edges that are free, with chains in the scratch
   Relink_answer next_edge =
       Relink_answer::open;  ///< of the next one, if planes prove the way of the vertex free
 };
 
 /// Moves a vertex if planes alone prove it free, and all its edges in place: so are most moves. Faces are
 /// left alone.
-/// \param settled set to what was found out, unless the vertex moved
+/// \param settled set to the results, unless the vertex moved
 /// \pre may_be_in_place(), and the vertex does not stand still
 template <int D>
 bool try_move_in_place(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,

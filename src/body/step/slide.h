@@ -17,8 +17,8 @@ namespace cellwalk::detail {
 constexpr double contact_offset_ulps = 16;
 
 /// The lift of a motion from a position at a wall, along the normal of that. At the origin, where doubles are
-/// as near to each other as they get anywhere, the motion says what a few ulp are: so the lift is in
-/// proportion to the environment.
+/// as near to each other as they get anywhere, the motion determines the size of a few ulp, so that the lift
+/// is in proportion to the environment.
 template <int D>
 Vector<D> lift(const Point<D>& position, const Vector<D>& motion, const Vector<D>& normal) {
   return (contact_offset_ulps * ulp<D>(position == Point<D>{} ? motion : position)) * normal;
@@ -36,8 +36,8 @@ inline Vector<3> project_on_both_planes(const Vector<3>& v, const Vector<3>& n, 
 /// by rounding.
 constexpr double rounding = 0x1p-40;
 
-/// What is left of a motion that met walls with these normals, the last of them just now: its part along the
-/// last one; where that leads into another, its part along both; nothing where that leads into a third.
+/// The rest of a motion that met walls with these normals, the last of them just now: its part along the last
+/// one; where that leads into another, its part along both; nothing where that leads into a third.
 template <int D>
 Vector<D> slide(const Vector<D>& motion, std::span<const Vector<D>> normals) {
   const Vector<D>& last = normals.back();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rule of the paper, vertex by vertex: a move is made on the first sides that do not block it.
 #include "step_at_target.h"
 
 #include <cellwalk/internal/edge/furthest_move.h>
@@ -96,7 +97,7 @@ Contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const 
 template <int D>
 void Target_step<D>::update_is_apart() {
   if (sweep_.touch == Touch::pass)
-    body_.is_apart = false;  // what moves now may touch
+    body_.is_apart = false;  // the moves to come may touch walls
   else if (body_.region.holds_body())
     body_.is_apart = true;
   else if (!body_.is_apart)
@@ -154,9 +155,9 @@ Tried_move<D> Target_step<D>::try_on_all_sides(std::uint32_t vertex, const Point
   return try_on_sides(vertex, target, {}, &best_choices, to, had_choice);
 }
 
-/// What comes of a move while the vertex takes the given sides of walls or, without, those that it prefers.
+/// The outcome of a move while the vertex takes the given sides of walls or, without, those that it prefers.
 /// If nothing hinders it, the scratch has its chains.
-/// \param settled what is known of it already
+/// \param settled the results known already
 template <int D>
 Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>& target,
                                            const Settled_move<D>& settled, Sides_taken* choices,
@@ -188,7 +189,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
       return tried;
     }
   }
-  // Planes alone prove that nothing is touched; where a sign was asked for, walls are.
+  // Planes alone prove that nothing is touched; where a sign was computed, walls are tested.
   const bool is_apart = body_.is_apart && signs() == signs_before;
   if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =

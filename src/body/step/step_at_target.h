@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The step of a body by the rule of the paper: only the way of a vertex and its edges where that ends decide,
-// and what meets a wall stays where it is.
+// The step of a body by the rule of the paper: only the way of a vertex and its edges at the target decide,
+// and a vertex that meets a wall stays where it is.
 #ifndef CELLWALK_BODY_STEP_STEP_AT_TARGET_H
 #define CELLWALK_BODY_STEP_STEP_AT_TARGET_H
 
@@ -16,8 +16,8 @@
 
 namespace cellwalk::detail {
 
-/// What came of the move of a vertex. The wall in the way is one that is touched, `answer.contact`, or one
-/// that a walk met: that is not located yet.
+/// The outcome of the move of a vertex. The wall in the way is one that is touched, `answer.contact`, or one
+/// that a walk met and that is not located yet.
 template <int D>
 struct Tried_move {
   Rejected_move<D> answer;

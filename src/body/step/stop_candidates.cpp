@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Roundings of the point of contact, then points off the wall, then points back along the motion.
 #include <cellwalk/internal/body/stop_candidates.h>
 #include <cellwalk/internal/kernel/crossing.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Slides and bounces of a particle, each from a position that a walk has reached.
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/internal/body/stop_candidates.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The first contact of a vertex, its edges and its faces, on each combination of sides of walls.
 #include "vertex_move.h"
 
 #include <cellwalk/internal/edge/edge_contact.h>
@@ -12,7 +13,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// As is_before(), but among contacts of several edges the half-facet says nothing: ties go to the first
+/// As is_before(), but among contacts of several edges the half-facet does not count: ties go to the first
 /// edge.
 template <int D>
 bool meets_before(const Contact<D>& a, const Contact<D>& b) {
@@ -52,7 +53,8 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   };
   if (walked.contact)
     keep(vertex_contact(snapshot, from.position, target, *walked.contact, counts.edges.walk), vertex);
-  // A vertex may touch, before it is blocked, what no edge touches off its start: edges may lie in its line.
+  // Before it is blocked, a vertex may touch walls that no edge touches off its start: edges may lie in its
+  // line.
   if (options.touch == Touch::stop && !(any && first))
     if (const auto touch = first_touch(snapshot, from, target, counts.edges))
       if (!first || meets_before(*touch, *first)) keep(*touch, vertex);
@@ -82,7 +84,7 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
       continue;
     }
     if (any && options.touch == Touch::pass) {
-      // What an edge meets on the way counts only where triangles are swept.
+      // Walls that an edge meets on the way count only where triangles are swept.
       auto free = meets_wall && options.sweep != Sweep::three_segments
                       ? std::nullopt
                       : free_chain(snapshot, path, body.particles[corner.other], body.seen_from(corner),

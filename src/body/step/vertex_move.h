@@ -19,8 +19,8 @@ std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch<D>& scratch
                                    const Point<D>& target, const Sweep_options& options, Body_counts& counts,
                                    bool any = false);
 
-/// Only looks for it. If there is none, the scratch holds what the move takes to be made, and `to` the vertex
-/// at its target.
+/// Only looks for it. If there is none, the scratch holds all that the move needs to be made, and `to` the
+/// vertex at its target.
 template <int D>
 std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch<D>& scratch, std::uint32_t vertex,
                                        const Point<D>& target, const Sweep_options& options,

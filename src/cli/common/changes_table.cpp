@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// One row for each change, with its place, its outcome and the reason of a refusal.
 #include "changes_table.h"
 
 #include <fmt/format.h>
@@ -91,9 +92,9 @@ void Changes_table<D>::add(std::uint32_t step, const std::vector<Change_outcome>
 
 template <int D>
 void Changes_table<D>::write(std::uint32_t step, const Change_outcome& outcome) {
-  // In the plane the third coordinate is left empty, as the writer does with what is not finite.
+  // In the plane the third coordinate is left empty, as the writer does with numbers that are not finite.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  // A cut has no place, nor has what one replaced.
+  // A cut has no place, nor has a facet or cell that a cut replaced.
   const bool has_cell = outcome.cell != Cell::none;
   Point<D> x;
   x.fill(nothing);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What came of changes of facets and cells: a table, counts, a summary.
+// The outcomes of changes of facets and cells: a table, counts, a summary.
 #ifndef CELLWALK_CLI_COMMON_CHANGES_TABLE_H
 #define CELLWALK_CLI_COMMON_CHANGES_TABLE_H
 
@@ -56,7 +56,7 @@ class Changes_table {
   std::array<std::uint64_t, change_kind_count> made_{};  ///< by Change_kind
   std::uint64_t refusals_ = 0;
   Cut_report cuts_;  ///< all together, without their points
-  /// What was refused and not made since: change, facet, cell.
+  /// The changes that were refused and not made since: change, facet, cell.
   std::set<std::array<std::uint64_t, 3>> left_;
 };
 

@@ -27,7 +27,7 @@ class Action {
   /// The action of a command that shares its work among ranks.
   template <std::invocable<Ranks&> Work>
   Action(Work work) : work_(std::move(work)) {}
-  /// That of a command that does not: the first rank works alone.
+  /// The action of a command that does not share its work: the first rank works alone.
   template <std::invocable Work>
   Action(Work work)
       : work_([work](Ranks& ranks) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The counts of walks as JSON.
 #include "counts_json.h"
 
 #include <nlohmann/json.hpp>

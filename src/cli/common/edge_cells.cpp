@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The option of the edge length, and the numbers of cells of edges as a sentence and as JSON.
 #include "edge_cells.h"
 
 #include <cellwalk/loading/report.h>

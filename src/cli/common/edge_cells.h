@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What commands that certify an environment say about it: its certificate, and the cells of edges.
+// The output of commands that certify an environment: its certificate, and the cells of edges.
 #ifndef CELLWALK_CLI_COMMON_EDGE_CELLS_H
 #define CELLWALK_CLI_COMMON_EDGE_CELLS_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Loading with a progress line, and the options that all commands on environments share.
 #include "environment_file.h"
 
 #include <cellwalk/internal/io/json_file.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The handlers of signals, and the end of the program by the signal that came.
 #include "interruption.h"
 
 #include <sys/prctl.h>

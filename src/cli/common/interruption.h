@@ -17,7 +17,7 @@ inline constexpr std::size_t signal_count = NSIG;
 /// meaning. Not a closed pipe and the limit of file sizes, which are errors of writing.
 bool ends_programs(int signal);
 
-/// True if a signal tells of a defect.
+/// True if a signal reports a defect.
 bool is_crash(int signal);
 
 /// Thrown by Interruption::check(); the handler cleans up and ends the program by the signal.
@@ -27,12 +27,12 @@ struct Interrupted {
 
 using Signal_handler = void (*)(int);
 
-/// Has a signal handled, unless whoever started the program has it ignored: nohup(1) does that with SIGHUP,
-/// and a shell with SIGINT for work in the background. Returns what handled it before.
+/// Installs a handler of a signal, unless whoever started the program has it ignored: nohup(1) does that with
+/// SIGHUP, and a shell with SIGINT for work in the background. Returns the previous handler.
 Signal_handler handle_unless_ignored(int signal, Signal_handler handler);
 
 /// Records signals that end programs during its lifetime, instead of ending the program, but for those that
-/// are ignored. What came after the last check() acts when its lifetime ends. One at a time.
+/// are ignored. A signal after the last check() acts when its lifetime ends. One at a time.
 class Interruption {
  public:
   Interruption();
@@ -49,8 +49,8 @@ class Interruption {
   std::array<Signal_handler, signal_count> before_{};
 };
 
-/// Ends the program as the signal would have, without a dump of its memory where others want it to end. Safe
-/// in a signal handler, after which it ends.
+/// Ends the program as the signal would have, without a dump of its memory where others end it. Safe in a
+/// signal handler, after which it ends.
 void raise_at_last(int signal);
 
 /// The same elsewhere. Does not return.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The version, compiler, flags and processor as JSON.
 #include "machine.h"
 
 #include <cellwalk/internal/io/cpu_model.h>

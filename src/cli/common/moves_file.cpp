@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rows of a table as moves, each of a point whose cells are all simplices.
 #include "moves_file.h"
 
 #include <cellwalk/internal/io/query_file.h>

@@ -37,7 +37,7 @@ struct Timed_move {
 };
 
 /// Reads moves as read_moves(), with the step of each in a column `step`: a whole number, at least 1. The
-/// result is in the order of steps; the moves of one in that of their rows.
+/// result is in the order of steps; the moves of one step in the order of their rows.
 /// \throw Error(input) as read_moves(); also for a point that is given twice in a step
 template <int D>
 std::vector<Timed_move<D>> read_timed_moves(const std::string& path, Environment<D>& environment);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// An environment that one rank compiles into an unnamed file, and the others of its node map.
 #include "node_environment.h"
 
 #include <cellwalk/environment/compiled.h>
@@ -40,7 +41,7 @@ std::string keep_for_node(const Loaded_environment& loaded) {
     is_written = is_written && write_all(descriptor, bytes);
   };
   const auto write = [&]<int D>(const Environment<D>& environment) {
-    const auto* const groups = std::get_if<Groups<D>>(&loaded.groups);  // none of what is generated
+    const auto* const groups = std::get_if<Groups<D>>(&loaded.groups);  // none if it is generated
     write_compiled(environment, loaded.built.certificate, groups ? *groups : Groups<D>{}, put);
   };
   std::visit(write, loaded.environment);

@@ -14,7 +14,7 @@ namespace cellwalk::cli {
 /// An environment that the first rank of each node makes, without a map. Its compiled bytes lie in memory
 /// that the other ranks of the node map, so that nothing is certified, and nothing held, twice. Where that
 /// memory cannot be had, each rank makes its own.
-/// \throw what `make` throws
+/// \throw Error as `make`
 Loaded_environment once_a_node(Ranks& ranks, const std::function<Loaded_environment()>& make);
 
 /// The environment of a file. Compiled ones are mapped by each rank, which shares their pages as well.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A locked temporary folder, which is renamed at the end, and the removal of abandoned ones.
 #include "output_folder.h"
 
 #include <cellwalk/internal/io/own_files.h>
@@ -54,7 +55,7 @@ bool is_result_name(const fs::path& name) {
          (text.starts_with('.') && text.ends_with(".tmp"));
 }
 
-/// What lies in a folder of results that no run writes; empty if there is nothing.
+/// A file in a folder of results that no run writes; empty if there is none.
 fs::path stranger_in(const fs::path& folder) {
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure); !failure && entry != fs::directory_iterator();
@@ -67,8 +68,8 @@ fs::path stranger_in(const fs::path& folder) {
   return {};
 }
 
-/// Removes what processes that were killed left of a folder. Where processes do not see each other, as in
-/// containers, the lock tells those that run.
+/// Removes the folders that killed processes left. Where processes do not see each other, as in containers,
+/// the lock distinguishes those that run.
 void remove_abandoned(const fs::path& destination) {
   const std::string prefix = destination.filename().string() + ".tmp-";
   std::vector<fs::path> abandoned;
@@ -148,7 +149,7 @@ void Output_folder::put() {
   fail(name_, "cannot be put in place", std::error_code(why, std::generic_category()));
 }
 
-/// What took the name while the program ran stays, and so do the results, which may have taken long.
+/// A folder that took the name while the program ran stays, and so do the results, which may have taken long.
 void Output_folder::keep_beside() {
   fs::path kept = destination_;
   kept += fmt::format(".ended-{}", getpid());

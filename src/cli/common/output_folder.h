@@ -39,7 +39,7 @@ class Output_folder final : public io::Output {
 
   std::filesystem::path name_, destination_, temporary_;  ///< the given name, its target, the new folder
   bool replaces_;
-  int lock_ = -1;  ///< tells other processes that this one runs
+  int lock_ = -1;  ///< shows other processes that this one runs
   io::Unfinished unfinished_;
   io::Replacement replacement_;
 };

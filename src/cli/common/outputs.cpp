@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The checks of output names against each other and against inputs, and the joint commit.
 #include "outputs.h"
 
 #include <cellwalk/internal/io/output.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Control characters of a message, written as escapes.
 #include "printable.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The progress line with its rate and remaining time, redrawn at intervals.
 #include "progress.h"
 
 #include <cellwalk/internal/ranks/ranks.h>

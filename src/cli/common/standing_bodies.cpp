@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies read from files before a change, and their positions written after it.
 #include "standing_bodies.h"
 
 #include <cellwalk/internal/io/csv.h>

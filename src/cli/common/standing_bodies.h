@@ -25,7 +25,7 @@ class Standing_bodies {
   /// All of them; refers to this object.
   Residents<D> residents();
   bool empty() const { return bodies_.empty(); }
-  /// What the readers left out or interpreted, with the file.
+  /// The parts that the readers left out or interpreted, with the file.
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Writes where the vertices of all bodies are; nothing if the file is null.

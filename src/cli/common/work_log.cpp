@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Lines of the log at the beginning and end of each stage, and at intervals by a thread.
 #include "work_log.h"
 
 #include <cellwalk/kernel/error.h>

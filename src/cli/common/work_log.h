@@ -15,7 +15,7 @@
 
 namespace cellwalk::cli {
 
-/// A stage of long work: what it is called, and how much of it is done.
+/// A stage of long work: its label, and the part of it that is done.
 struct Stage {
   using Clock = std::chrono::steady_clock;
 
@@ -25,7 +25,7 @@ struct Stage {
   Clock::time_point start = Clock::now();
 };
 
-/// What a stage says of itself.
+/// The progress of a stage.
 struct Stage_state {
   double seconds = 0;       ///< since it began
   std::uint64_t done = 0;   ///< at that time
@@ -34,10 +34,10 @@ struct Stage_state {
 };
 Stage_state state_of(const Stage& stage);
 
-/// Bytes of main memory that this process uses; 0 if the system does not tell.
+/// Bytes of main memory that this process uses; 0 if the system does not report it.
 std::uint64_t memory_in_use();
 
-/// Seconds: some eleven days. Clocks cannot wait for as long as a double can tell.
+/// Seconds: some eleven days. Clocks cannot wait for as long as a double can express.
 inline constexpr double longest_log_interval = 1e6;
 
 /// While it lives, the stage that runs is written every so often, and each stage once more when it ends. A
@@ -69,7 +69,7 @@ class Work_log {
   std::string path_;
   std::ofstream file_;
   std::chrono::duration<double> interval_;
-  std::mutex mutex_;  ///< of what follows, and of the file
+  std::mutex mutex_;  ///< guards the members below and the file
   std::condition_variable stopped_;
   bool is_stopped_ = false;
   std::vector<const Stage*> running_;  ///< the innermost one last

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The making, taking up, replacing and removing of OUT.part, in steps that survive a kill.
 #include "working_folder.h"
 
 #include <cellwalk/internal/io/durable.h>
@@ -49,8 +50,8 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What tells the results of a run from those of others, also where they were copied to, or are seen from
-/// another machine.
+/// The content that distinguishes the results of a run from those of others, also where they were copied to,
+/// or are seen from another machine.
 std::string identity(const fs::path& folder) { return content(folder / "run.json"); }
 
 bool has_checkpoint(const fs::path& folder) {
@@ -61,8 +62,8 @@ bool has_checkpoint(const fs::path& folder) {
   return failure && failure != std::errc::no_such_file_or_directory;  // there may be one
 }
 
-/// True of what a process made here, even if it was killed at once, and of what one left that was killed
-/// while it removed this. A link is none.
+/// True of a folder that a process made here, even if it was killed at once or while it removed the folder. A
+/// link is none.
 bool is_working_folder(const fs::path& folder) {
   std::error_code failure;
   if (!fs::is_directory(fs::symlink_status(folder, failure))) return false;
@@ -78,7 +79,7 @@ bool is_same_file(int descriptor, const fs::path& file) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Does what the next process does otherwise, unless there is no memory even for names.
+/// Does work that the next process would do otherwise, unless there is no memory even for names.
 template <class Function>
 void if_possible(Function&& function) noexcept {
   try {
@@ -138,7 +139,7 @@ void Working_folder::begin() {
       fs::rename(path_ / name, earlier(name), failure);
       if (failure) fail_at(path_, "cannot be written", failure);
     }
-  // What ended before its first checkpoint is of no use.
+  // A run that ended before its first checkpoint is of no use.
   for (const char* name : folders) fs::remove_all(path_ / name, ignored);
   fs::remove(path_ / "ended", ignored);
   is_own_ = true;
@@ -154,7 +155,8 @@ void Working_folder::forget_earlier() noexcept {
   });
 }
 
-/// What was put aside first comes back last: until then a process that is killed leaves it to the next one.
+/// The folder that was put aside first comes back last: until then a process that is killed leaves it to the
+/// next one.
 void Working_folder::bring_earlier_back() {
   std::error_code failure;
   for (const char* name : {folders[1], folders[0]}) {
@@ -219,11 +221,11 @@ void Working_folder::lock() {
   if (lock_ < 0) fail_at(path_, "cannot be written", std::error_code(errno, std::generic_category()));
   // The other process may have removed the file that was opened.
   if (flock(lock_, LOCK_EX | LOCK_NB) == 0 && is_same_file(lock_, file)) return;
-  close(std::exchange(lock_, -1));  // what is here belongs to the other one
+  close(std::exchange(lock_, -1));  // the content belongs to the other one
   throw Error(Error_code::usage, shown() + ": another process runs there: wait until it ends");
 }
 
-/// Its name as that of the destination was given, for messages.
+/// Its name in the form in which the destination was given, for messages.
 std::string Working_folder::shown() const {
   const fs::path given = name_.has_filename() ? name_ : name_.parent_path();
   const fs::path last = given.filename();
@@ -240,7 +242,7 @@ Working_folder::~Working_folder() {
   if (lock_ >= 0) close(lock_);
 }
 
-/// Of a run that did not end: what has no checkpoint is of no use.
+/// For a run that did not end; without a checkpoint it is of no use.
 void Working_folder::leave() {
   std::error_code ignored;
   if (has_checkpoint(checkpoints())) return;
@@ -250,10 +252,11 @@ void Working_folder::leave() {
     clear();
 }
 
-/// Removes what runs leave here. What tells that one has ended goes last: whoever finds it removes the rest.
+/// Removes the files of runs here. The mark that one has ended goes last: a process that finds it removes the
+/// rest.
 void Working_folder::clear() {
   std::error_code failure;
-  fs::remove(results() / "run.json", failure);  // what is half removed is not taken for results
+  fs::remove(results() / "run.json", failure);  // half a folder is not taken for results
   for (const char* name : {folders[1], folders[0]})
     for (const fs::path& folder : {path_ / name, earlier(name)})
       if (!io::remove_tree(folder.c_str())) return;
@@ -277,7 +280,7 @@ void Working_folder::put() {
 
 void Working_folder::take_back() noexcept { replacement_.take_back(results(), destination_); }
 
-/// The new names are on the device before what they could be made from is gone.
+/// The new names are on the device before the files are gone from which they could be made again.
 void Working_folder::settle() noexcept {
   if_possible([this] {
     io::sync(destination_.parent_path());

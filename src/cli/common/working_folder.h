@@ -16,22 +16,22 @@ namespace cellwalk::cli {
 /// OUT.part, with the folders `results`, which becomes OUT, and `checkpoints`. One process uses it at a time.
 class Working_folder final : public io::Output {
  public:
-  /// Makes it, or takes one that an earlier run left: what is in that stays until begin(). Of one that was
-  /// made nothing stays without a checkpoint, whatever ends the program.
+  /// Makes it, or takes one that an earlier run left: its content stays until begin(). Nothing of a new one
+  /// stays without a checkpoint, whatever ends the program.
   /// \throw Error(usage) as Output_folder, and if there is one already, unless `replace` is set; Error(input)
   ///        for one that holds links; Error(other) if it cannot be made
   static std::unique_ptr<Working_folder> make(const std::filesystem::path& destination, bool replace);
-  /// Takes up what an earlier process left: unfinished files in it are removed, and nothing else before
-  /// settle().
+  /// Takes up the folder that an earlier process left: unfinished files in it are removed, and nothing else
+  /// before settle().
   /// \throw Error(usage) if there is none, or another process uses it; Error(input) if it holds links, by
   ///        which files outside would be written
   static std::unique_ptr<Working_folder> take_up(const std::filesystem::path& destination);
 
-  /// Of one that was made: puts what an earlier run left aside, and makes the folders of this one. Without a
-  /// checkpoint, the destructor then removes them, and brings the earlier run back.
+  /// Of one that was made: puts the results of an earlier run aside, and makes the folders of this one.
+  /// Without a checkpoint, the destructor then removes them, and brings the earlier run back.
   /// \throw Error(other) if they cannot be made
   void begin();
-  /// Once there is a checkpoint, and this run stays: removes what an earlier one left.
+  /// Once there is a checkpoint, and this run stays: removes the results of an earlier one.
   void forget_earlier() noexcept;
 
   /// True if there are results of a run, and no such folder; an empty one is removed.
@@ -41,7 +41,7 @@ class Working_folder final : public io::Output {
 
   std::filesystem::path results() const { return path_ / "results"; }
   std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
-  /// True if the results were put in place before, and only what is here could not be removed.
+  /// True if the results were put in place before, and only this folder could not be removed.
   bool is_done() const { return is_done_; }
 
   /// Of one that was taken up: it was begun to replace an earlier run of that name. A copy replaces none.

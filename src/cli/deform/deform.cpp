@@ -21,7 +21,7 @@
 namespace cellwalk::cli {
 namespace {
 
-/// What a point does whose walls meet a body.
+/// The reaction of a point whose walls meet a body.
 enum class Contact_rule : std::uint8_t { stop, hold, push, test };
 
 struct Deform_options {
@@ -31,7 +31,7 @@ struct Deform_options {
   Build_options build{.keep_map = false};
 };
 
-/// \throw Error(usage) if there is no place for what is moved, or nothing to write
+/// \throw Error(usage) if there is no output for the moved environment, or nothing to write
 void check_outputs(const Deform_options& options) {
   const bool tests_only = options.at_contact == Contact_rule::test;
   if (!tests_only && options.output.empty())
@@ -96,7 +96,7 @@ void deform_environment(const Deform_options& options, Deform_files& files, Envi
   move_points(moves, tests_only, reshaping, results);
   bodies.write_positions(files.positions);
 
-  // What nobody moved is certified as it was read.
+  // An environment in which nothing moved is certified as it was read.
   const std::string& name = tests_only ? options.environment : options.output;
   const Certificate certificate = [&] {
     const Progress progress("certifying " + name);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// One row for each move, the counts of their ends, and the same as JSON.
 #include "results.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What came of the moves of `cellwalk deform`: a table, a report, a summary.
+// The outcomes of the moves of `cellwalk deform`: a table, a report, a summary.
 #ifndef CELLWALK_CLI_DEFORM_RESULTS_H
 #define CELLWALK_CLI_DEFORM_RESULTS_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The columns and rows of the table of answers, in 2D and 3D.
 #include "answers.h"
 
 #include <array>

@@ -27,7 +27,7 @@ namespace cellwalk::cli {
 template <class Counts, int D, std::size_t N, class Answer_row, class Use>
 void answer_rows(const std::vector<Query_row<D, N>>& rows, const char* label, Counts& total,
                  Answer_row answer, Use use) {
-  constexpr std::size_t batch = 1 << 14;  // so few that their answers stay in the cache
+  constexpr std::size_t batch = 1 << 14;  // few enough for their answers to stay in the cache
   tbb::enumerable_thread_specific<Counts> counts;
   Progress progress(label, rows.size());
   std::vector<Answer<D>> answers;

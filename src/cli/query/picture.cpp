@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cells, planes and vertices of a walk in 2D, chosen for display.
 #include "picture.h"
 
 #include <cellwalk/edge/chain.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Lines, marks and numbers of cells within the visible part of the plane.
 #include "picture_plot.h"
 
 #include <cellwalk/internal/drawing/drawing.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rows of each rank, answered and then gathered, and the requested picture and repro file.
 #include "table.h"
 
 #include <cellwalk/internal/io/query_file.h>
@@ -37,7 +38,7 @@ T from_message(std::string_view message) {
   return detail::Byte_reader(message).next<T>();
 }
 
-/// What a rank found out about its rows.
+/// The answers of a rank to its rows.
 struct Answered {
   std::array<std::uint64_t, std::size(motion_status_names)> tally{};
   Edge_counts counts;
@@ -110,7 +111,7 @@ std::size_t first_row(Ranks& ranks, std::size_t rows) {
   return from_message<std::vector<std::size_t>>(shared)[ranks.rank()];
 }
 
-/// The points of the row of which a repro file or a picture is wanted, on the first rank; none if none is.
+/// The points of the row of which a repro file or a picture is requested, on the first rank; none if none is.
 /// \throw Error(usage) if there is no such valid row, before anything is answered
 template <int D, std::size_t N>
 std::optional<std::array<Point<D>, N>> wanted_row(const Query_options& options, Ranks& ranks,

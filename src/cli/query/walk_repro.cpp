@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The walk from each possible start cell, printed and compared with the exact walk.
 #include "walk_repro.h"
 
 #include <cellwalk/internal/io/numbers.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The loading of bodies, and their counts of moves, edges and contacts in words and as JSON.
 #include "bodies.h"
 
 #include <cellwalk/generators/body_shapes.h>

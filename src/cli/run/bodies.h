@@ -21,14 +21,14 @@ namespace cellwalk::cli {
 template <int D>
 struct Scene_bodies {
   std::vector<Body_soup<D>> shapes;
-  std::vector<std::string> notes;  ///< what the readers left out or interpreted, with the scene's key
+  std::vector<std::string> notes;  ///< parts that the readers left out or interpreted, with the scene's key
 };
 
 /// \throw Error(input) naming the file of a body, or the scene and its key
 template <int D>
 Scene_bodies<D> load_bodies(const Scene<D>& scene, const std::string& scene_name);
 
-/// How many there are of what, the catheter included.
+/// The numbers of bodies and of their parts, the catheter included.
 struct Body_sizes {
   std::size_t bodies = 0, vertices = 0, edges = 0, faces = 0, guided = 0, arrived = 0;
 };
@@ -46,7 +46,7 @@ nlohmann::ordered_json catheter_json(const Rod<D>& rod);
 /// Counts, and the share of vertex moves and edge checks that each certificate decided.
 nlohmann::ordered_json to_json(const Body_counts& counts);
 
-/// For people: contacts by feature, and what decided the moves of vertices and the checks of edges.
+/// For people: contacts by feature, and the ways in which moves of vertices and checks of edges were decided.
 template <int D>
 std::string describe_catheter(const Rod<D>& rod);
 std::string describe_contacts(const Body_contacts& contacts);

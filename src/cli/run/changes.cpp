@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The changes due at each step, applied and noted in their table.
 #include "changes.h"
 
 #include <cellwalk/loading/environment_file.h>

@@ -16,7 +16,7 @@
 
 namespace cellwalk::cli {
 
-/// Makes the changes of a scene before the steps of a world, and writes what came of them to changes.csv.
+/// Makes the changes of a scene before the steps of a world, and writes their outcomes to changes.csv.
 template <int D>
 class Run_changes {
  public:
@@ -31,7 +31,7 @@ class Run_changes {
               detail::Byte_reader& saved);
   void save(detail::Byte_writer& out) const;
 
-  /// Makes what is due before the step that is next. Returns what came of it.
+  /// Makes the changes that are due before the next step. Returns their outcomes.
   std::vector<Change_outcome> step(World<D>& world);
   /// Completes the table.
   void finish() { table_.commit(); }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bytes of a checkpoint, and the tests of those that are read.
 #include "checkpoints.h"
 
 #include <cellwalk/internal/io/mapped_file.h>
@@ -40,8 +41,8 @@ Run_settings::Run_settings(const Run_options& options, std::vector<std::string> 
 
 namespace {
 
-/// What no run has, and would lead out of its folder or end the program. The checksum of a file does not tell
-/// who made it.
+/// True for settings that no run has, and that would lead out of its folder or end the program. The checksum
+/// of a file does not prove who made it.
 bool is_impossible(const Run_settings& settings, const Result_files::Lengths& lengths) {
   const auto leads_out = [](const auto& entry) {
     const fs::path name(entry.first);

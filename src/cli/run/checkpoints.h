@@ -22,7 +22,7 @@
 
 namespace cellwalk::cli {
 
-/// What was asked for when the run began.
+/// The options with which the run began.
 struct Run_settings {
   std::string scene, scene_text;
   std::string record, json;  ///< names of files outside of the folder, which are not written unasked
@@ -52,7 +52,7 @@ struct Kept_run {
 /// \throw Error(input) if there is none, or one of another version of the program
 Kept_run read_checkpoint(const std::filesystem::path& checkpoints);
 
-/// Takes the environment out of what is left of a checkpoint.
+/// Takes the environment out of the rest of a checkpoint.
 /// \param history that it is to follow, once it is where it stays
 /// \throw Error(input) for one that is damaged, or of another dimension
 template <int D>

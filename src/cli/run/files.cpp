@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Rows of contacts and frames, written step by step.
 #include "files.h"
 
 #include <cellwalk/io/atomic_file.h>
@@ -51,7 +52,7 @@ Run_files<D>::Run_files(Result_files& place, const Environment<D>& environment, 
 
 template <int D>
 void Run_files<D>::record(const World<D>& world, bool is_last) {
-  // In the plane the third coordinates are left empty, as the writer does with what is not finite.
+  // In the plane the third coordinates are left empty, as the writer does with numbers that are not finite.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   for (const Run_contact<D>& c : world.contacts()) {
     const Point<D>& x = c.contact.point;

@@ -41,7 +41,7 @@ class Run_files {
   /// Those of them that are contacts of bodies.
   const Body_contacts& body_contacts() const { return body_contacts_; }
 
-  /// All but what is in the files.
+  /// All members but the content of the files.
   template <class Archive>
   void archive(Archive& a) {
     a(entries_, since_frame_, before_, contacts_, body_contacts_, frames_);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Particles, bodies and contacts as cells with velocities and normals.
 #include "grids.h"
 
 #include <numeric>

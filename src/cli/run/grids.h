@@ -14,9 +14,9 @@ namespace cellwalk::cli {
 template <int D>
 io::Vtu_grid particles_grid(const World<D>& world, const std::vector<Run_contact<D>>& contacts);
 
-/// Bodies: each with its vertices, then its edges, then its faces. Cells know how often they met a wall;
-/// points their velocity, which is their displacement since `before` over the time step, or, where `before`
-/// is empty, that of the body.
+/// Bodies: each with its vertices, then its edges, then its faces. Cells have the number of their contacts;
+/// points have their velocity, which is their displacement since `before` over the time step, or, where
+/// `before` is empty, that of the body.
 template <int D>
 io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>>& contacts,
                          const std::vector<Point<D>>& before, double time_step);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What `cellwalk run` is asked for, and what it writes.
+// The options of `cellwalk run`, and its outputs.
 #ifndef CELLWALK_CLI_RUN_OPTIONS_H
 #define CELLWALK_CLI_RUN_OPTIONS_H
 
@@ -22,7 +22,7 @@ struct Run_options {
   std::string json;    ///< where the report goes as well; empty: nowhere
   std::vector<std::string> changes;
   std::string scene_text;   ///< with the changes
-  std::uint32_t steps = 0;  ///< 0: as many as the scene says
+  std::uint32_t steps = 0;  ///< 0: as many as in the scene
   std::size_t threads = 0;  ///< 0: as many as there are cores
   bool force = false;
   Body_options body;
@@ -36,7 +36,7 @@ struct Given_options {
   bool steps = false, sweep = false, record = false, json = false;
 };
 
-/// What a run writes; null where it is not wanted.
+/// The outputs of a run; null for those not requested.
 struct Run_outputs {
   /// Of a new run.
   explicit Run_outputs(const Run_options& options)
@@ -65,7 +65,7 @@ struct Run_outputs {
   io::Atomic_file *record = nullptr, *json = nullptr;
 
  private:
-  /// Without what is left of a run with checkpoints that was killed before the first of them.
+  /// Without the rest of a run with checkpoints that was killed before the first of them.
   static const std::string& cleared(const Run_options& options, const std::string& name) {
     if (options.checkpoint_every > 0 && !name.empty()) io::remove_abandoned(name);
     return name;

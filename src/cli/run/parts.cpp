@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The construction of all parts, from a scene or a checkpoint, and the order of their steps.
 #include "parts.h"
 
 #include <cellwalk/internal/simulation/saved_state.h>
@@ -15,7 +16,7 @@ World<D> make_world(const Run_input<D>& input, const std::vector<Body_soup<D>>& 
   try {
     return World<D>(input.environment.snapshot(), input.scene, shapes, input.options.body);
   } catch (const Error& error) {
-    // What a scene asks for is input, whatever it would be in a call.
+    // The values of a scene are input, whatever they would be in a call.
     const auto code = error.code() == Error_code::usage ? Error_code::input : error.code();
     throw Error(code, fmt::format("{}: {}", input.options.scene, error.what()));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a run is made of: what moves, and what is written of it. A new run makes the parts; one that goes on
-// reads them from its checkpoint.
+// The parts of a run: the world, its walls and changes, and the files. A new run makes the parts; one that
+// goes on reads them from its checkpoint.
 #ifndef CELLWALK_CLI_RUN_PARTS_H
 #define CELLWALK_CLI_RUN_PARTS_H
 
@@ -28,7 +28,7 @@
 
 namespace cellwalk::cli {
 
-/// What a run begins with, and refers to until it ends.
+/// The data with which a run begins, and to which it refers until it ends.
 template <int D>
 struct Run_input {
   const Scene<D>& scene;
@@ -44,7 +44,7 @@ struct Run_input {
 /// \throw Error as World, naming the scene
 template <int D>
 World<D> make_world(const Run_input<D>& input, const std::vector<Body_soup<D>>& shapes);
-/// When the first rank has to know where everything is.
+/// The steps after which the first rank needs all positions.
 template <int D>
 State_times state_times(const Run_input<D>& input, const World<D>& world);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Lines and marks of all motions, thinned to a limit, and drawn with the walls.
 #include "picture.h"
 
 #include <cellwalk/internal/drawing/bodies.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The still picture of a run: walls, what moved, where it had been, and the contacts with their normals.
+// The still picture of a run: walls, particles and bodies, their earlier places, and the contacts with their
+// normals.
 #ifndef CELLWALK_CLI_RUN_PICTURE_H
 #define CELLWALK_CLI_RUN_PICTURE_H
 
@@ -15,9 +16,9 @@
 
 namespace cellwalk::cli {
 
-/// Collects what a picture of the last step shows. Its memory and that of the drawing are bounded, whatever
-/// the size and the length of the run: a hundred bytes for each of the 12,000 latest positions of particles
-/// and each of some 100,000 contacts, and 250 MB while the picture is drawn.
+/// Collects the content of a picture of the last step. Its memory and that of the drawing are bounded,
+/// whatever the size and the length of the run: a hundred bytes for each of the 12,000 latest positions of
+/// particles and each of some 100,000 contacts, and 250 MB while the picture is drawn.
 template <int D>
 class Run_picture {
  public:
@@ -29,7 +30,7 @@ class Run_picture {
   void record(const World<D>& world);
 
   /// Where there is more to draw than the bound allows, round shapes get fewer sides, and then a share of
-  /// them is drawn; the caption says how large it is.
+  /// them is drawn; the caption contains this share.
   drawing::Drawing draw(const World<D>& world, const Scene<D>& scene, std::string caption) const;
 
   template <class Archive>

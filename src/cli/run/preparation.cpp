@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The loading or generation of the environment, with a map only if its run needs one.
 #include "preparation.h"
 
 #include <cellwalk/loading/generators.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Numbers of the loops and points of walls, and the differences after each change.
 #include "recorded_walls.h"
 
 #include <cellwalk/io/vtu.h>
@@ -12,7 +13,7 @@ namespace {
 /// More passable edges of the plane than this are a grey area, not lines.
 constexpr std::size_t most_lines = 40'000;
 
-/// The same loop, begun at its first point. In the plane the two points of a wall tell its sides apart, and
+/// The same loop, begun at its first point. In the plane the two points of a wall distinguish its sides, and
 /// stay in order.
 Numbered_loops::Loop from_lowest(Numbered_loops::Loop loop) {
   if (loop.size() > 2) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());

@@ -21,7 +21,7 @@ class Numbered_loops {
   /// To be called with all loops that are there, between begin() and end().
   void begin() { is_seen_.assign(is_there_.size(), 0); }
   void see(const Loop& loop);
-  /// What changed since the last end().
+  /// The changes since the last end().
   Loops_change end();
 
   template <class Archive>
@@ -43,7 +43,7 @@ class Recorded_walls {
  public:
   explicit Recorded_walls(const Snapshot<D>& snapshot) : snapshot_(&snapshot) {}
 
-  /// What changed since the last call; at first all that there is.
+  /// The changes since the last call; at first all walls.
   /// Cost: linear in the cells, if the environment was edited since.
   Walls_change follow();
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice of the interval between frames, and how each motion was decided.
 #include "recording.h"
 
 #include <cellwalk/io/vtu.h>

@@ -21,7 +21,7 @@ struct Motion_times {
   std::uint32_t steps = 0, every = 1;
 };
 
-/// What the walls of a run may do.
+/// The kinds of motion of the walls of a run.
 struct Wall_motion {
   bool walls_move = false;    ///< their points do
   bool walls_change = false;  ///< they come and go
@@ -64,8 +64,8 @@ class Run_recording {
   std::vector<Body_counts> before_;  ///< at the record before
 };
 
-/// Steps from one record to the next: what the scene says, or so many that a page of it stays below 30 MB. 0:
-/// nothing is recorded.
+/// Steps from one record to the next: the number that the scene gives, or one with which a page of it stays
+/// below 30 MB. 0: nothing is recorded.
 template <int D>
 std::uint32_t motion_interval(const Scene<D>& scene, const Snapshot<D>& snapshot, const World<D>& world,
                               std::uint32_t steps);

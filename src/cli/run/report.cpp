@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The contents of run.json, and the sentences of the summary.
 #include "report.h"
 
 #include <fmt/format.h>

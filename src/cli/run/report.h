@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a run says when it has ended: run.json, the summary, and the caption of its picture.
+// The reports of a run that has ended: run.json, the summary, and the caption of its picture.
 #ifndef CELLWALK_CLI_RUN_REPORT_H
 #define CELLWALK_CLI_RUN_REPORT_H
 
@@ -18,7 +18,8 @@ nlohmann::ordered_json report(const Run_input<D>& input, const Run_parts<D>& par
 /// \param not_drawn why the picture is missing, if it is
 template <int D>
 std::string summary(const Run_input<D>& input, const Run_parts<D>& parts, const std::string& not_drawn);
-/// Of a run that went on: what it was to write outside of its folder, and is not given again.
+/// Of a run that went on: the outputs outside of its folder that were requested at first, and are not given
+/// again.
 std::string not_written(const Run_settings& began, const Run_options& now);
 template <int D>
 std::string caption(const Run_input<D>& input, const Run_parts<D>& parts);

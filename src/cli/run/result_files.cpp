@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Files that grow up to a checkpoint, and archives that are packed when they are complete.
 #include "result_files.h"
 
 #include <cellwalk/internal/io/gzip.h>

@@ -25,7 +25,7 @@ class Result_files {
   /// Each file is complete or not there.
   explicit Result_files(std::filesystem::path folder) : folder_(std::move(folder)) {}
   /// Files grow where they are.
-  /// \param aside for what is not to be seen among the results
+  /// \param aside for files that are not to be seen among the results
   /// \param lengths at the checkpoint from which the run goes on; none: it begins
   Result_files(std::filesystem::path folder, std::filesystem::path aside, std::optional<Lengths> lengths)
       : folder_(std::move(folder)),
@@ -43,7 +43,7 @@ class Result_files {
   io::Csv_writer table(const std::string& name, const std::vector<std::string>& columns);
   /// A file that is compressed.
   std::unique_ptr<io::Byte_sink> packed(const std::string& name);
-  /// A file beside the results, from which a run can read again what it wrote.
+  /// A file beside the results, from which a run can read its own content again.
   /// \pre files grow where they are
   std::unique_ptr<io::Byte_sink> aside(const std::string& name);
   std::filesystem::path aside_path(const std::string& name) const { return *aside_ / name; }

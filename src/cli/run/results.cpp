@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The report, the recording and the contacts of a run, each checked as it is read.
 #include "results.h"
 
 #include <cellwalk/internal/io/csv.h>

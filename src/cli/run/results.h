@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What `cellwalk run` left in a folder, read again and checked.
+// The results of `cellwalk run` in a folder, read again and checked.
 #ifndef CELLWALK_CLI_RUN_RESULTS_H
 #define CELLWALK_CLI_RUN_RESULTS_H
 

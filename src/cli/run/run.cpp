@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// cellwalk run [SCENE.json] -o DIR: simulates a scene and writes what happened.
+// cellwalk run [SCENE.json] -o DIR: simulates a scene and writes the results.
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/scene.h>
@@ -79,7 +79,7 @@ void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_sharing<D>& s
 }
 
 /// The same with checkpoints, by one process. A signal ends the program after the step, with a last one;
-/// there is one after the last step as well, since what follows may take long.
+/// there is one after the last step as well, since the work that follows may take long.
 template <int D>
 void run_steps(const Run_input<D>& input, Run_parts<D>& parts, Run_checkpoints<D>& checkpoints,
                Working_folder& working, const Interruption& interruption) {

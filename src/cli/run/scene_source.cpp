@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The text of a scene, with the changes of the command line applied before it is parsed.
 #include "scene_source.h"
 
 #include <cellwalk/io/scene.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The scene that `cellwalk run` is asked for: a file or the built-in one, with what the command line changes
-// of it.
+// The scene for `cellwalk run`: a file or the built-in one, with the changes of the command line.
 #ifndef CELLWALK_CLI_RUN_SCENE_SOURCE_H
 #define CELLWALK_CLI_RUN_SCENE_SOURCE_H
 
@@ -12,7 +11,7 @@
 namespace cellwalk::cli {
 
 struct Scene_source {
-  std::string name;  ///< as errors say it
+  std::string name;  ///< as in messages of errors
   std::string text;  ///< JSON, maybe with comments
   Any_scene scene;
 };
@@ -22,7 +21,7 @@ struct Scene_source {
 /// io::read_scene
 Scene_source load_scene(const std::string& path, const std::vector<std::string>& changes);
 
-/// What data/hexahedra.json says.
+/// The content of data/hexahedra.json.
 extern const char* const built_in_scene;
 
 }  // namespace cellwalk::cli

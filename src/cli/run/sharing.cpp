@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The states and contacts that the first rank gathers after each step.
 #include "sharing.h"
 
 namespace cellwalk::cli {

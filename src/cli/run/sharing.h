@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A run whose particles and bodies ranks share: each advances a part, and the first writes what all did.
+// A run whose particles and bodies ranks share: each advances a part, and the first writes the results of
+// all.
 #ifndef CELLWALK_CLI_RUN_SHARING_H
 #define CELLWALK_CLI_RUN_SHARING_H
 
@@ -18,7 +19,7 @@ namespace cellwalk::cli {
 template <int D>
 std::string why_not_shared(const Scene<D>& scene, bool is_recorded, bool is_kept);
 
-/// When the first rank has to know where everything is: at the end, and as follows.
+/// The steps after which the first rank needs all positions: the last one, and as follows.
 struct State_times {
   std::uint32_t steps = 0;
   std::uint32_t frames = 0, motion = 0;  ///< steps from one to the next; 0: never
@@ -31,11 +32,11 @@ class Run_sharing {
   /// Alone, all stays in the world, and nothing is done.
   Run_sharing(Ranks& ranks, World<D>& world, const State_times& times);
 
-  /// To be called after each step of the world. Afterwards the world of the first rank knows the contacts of
+  /// To be called after each step of the world. Afterwards the world of the first rank has the contacts of
   /// all.
   /// \throw Error on the first rank if another one failed
   void step();
-  /// To be called after World::validate(): the world of the first rank knows everything.
+  /// To be called after World::validate(): the world of the first rank then has all states.
   /// \throw Error as step()
   void finish();
 

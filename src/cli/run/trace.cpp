@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The start, the checkpoints and the end of a trace of a run.
 #include "trace.h"
 
 #include <cellwalk/internal/io/mapped_file.h>

@@ -28,7 +28,7 @@ void check_recordable(const Scene<D>& scene, const std::string& scene_name);
 std::unique_ptr<Body_trace_recorder> start_trace(const std::string& scene_name, const World<3>& world);
 /// 2D scenes are not recordable.
 std::unique_ptr<Body_trace_recorder> start_trace(const std::string& scene_name, const World<2>& world);
-/// The same, going on with what a run recorded before.
+/// The same, going on with the trace that a run recorded before.
 std::unique_ptr<Body_trace_recorder> go_on_with_trace(const World<3>& world, Body_trace trace);
 std::unique_ptr<Body_trace_recorder> go_on_with_trace(const World<2>& world, Body_trace trace);
 
@@ -38,12 +38,12 @@ inline constexpr const char* kept_trace_name = "record.trace";
 /// Writes it to a file, or among the results if there is none.
 void write_trace(const Body_trace& trace, io::Atomic_file* file, const std::filesystem::path& results);
 
-/// What a trace has grown by, in a file from which it can be read again.
+/// A growing trace, in a file from which it can be read again.
 class Kept_trace {
  public:
   explicit Kept_trace(Result_files& place);
 
-  /// Appends what was recorded since the last call.
+  /// Appends the steps that were recorded since the last call.
   void append(const Body_trace& trace);
   /// All that was appended.
   /// \throw Error(input) if the file was changed

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The targets of points, their moves among bodies, and moves repeated after a relaxation.
 #include "walls.h"
 
 #include <cellwalk/loading/environment_file.h>
@@ -188,7 +189,7 @@ void Run_walls<D>::finish() {
 
 template <int D>
 void Run_walls<D>::record(std::uint32_t step, const Move_report<D>& report) {
-  // In the plane the third coordinates are left empty, as the writer does with what is not finite.
+  // In the plane the third coordinates are left empty, as the writer does with numbers that are not finite.
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   const Snapshot<D>& snapshot = environment_.snapshot();
   for (const Wall_hit<D>& hit : report.hits) {

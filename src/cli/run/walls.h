@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walls that move in a run: by a pulsation, or as a table says.
+// Walls that move in a run: by a pulsation, or by a table.
 #ifndef CELLWALK_CLI_RUN_WALLS_H
 #define CELLWALK_CLI_RUN_WALLS_H
 
@@ -26,7 +26,7 @@
 
 namespace cellwalk::cli {
 
-/// Moves the walls before each step of a world. Writes what they meet to walls.csv and, if they are soft, the
+/// Moves the walls before each step of a world. Writes their contacts to walls.csv and, if they are soft, the
 /// forces on them to forces.csv.
 template <int D>
 class Run_walls {
@@ -41,8 +41,8 @@ class Run_walls {
             detail::Byte_reader& saved);
   void save(detail::Byte_writer& out) const;
 
-  /// Moves the walls to where they are to be after the step that is next. What a wall cannot do now it tries
-  /// again in the step after.
+  /// Moves the walls to where they are to be after the next step. The rest of a motion that is blocked is
+  /// tried again in the step after.
   void step(World<D>& world);
 
   /// To be called after changes of facets and cells.
@@ -95,7 +95,7 @@ class Run_walls {
   std::optional<Wall_relaxation> relaxation_;
   Relax_options relax_options_;
   Relax_report relaxed_;     ///< operations of all steps
-  std::uint64_t moves_ = 0;  ///< of points, asked for
+  std::uint64_t moves_ = 0;  ///< of points, requested
   std::array<std::uint64_t, move_end_names.size()> ends_{};
   std::uint64_t hits_ = 0;
   Reshape_counts counts_;

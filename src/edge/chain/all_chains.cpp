@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The repeated search for a chain that equals none of those found before.
 #include <cellwalk/internal/edge/all_chains.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A chain of a segment on any sides of walls, and the test whether given facets are one.
 #include <cellwalk/edge/chain.h>
 
 #include "any_path.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What searches for any chain of a segment have in common with tests of chains.
+// The common part of searches for any chain of a segment and of tests of chains.
 #ifndef CELLWALK_EDGE_CHAIN_ANY_PATH_H
 #define CELLWALK_EDGE_CHAIN_ANY_PATH_H
 

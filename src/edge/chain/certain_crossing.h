@@ -17,7 +17,7 @@ enum class Crossing_proof {
 
 /// A segment pq, against triangles whose corners a cell has in the order of a loop.
 ///
-/// With corners a, b, c and d = q - p, all seen from p, the signs asked for are those of det(d,a,b),
+/// With corners a, b, c and d = q - p, all seen from p, the requested signs are those of det(d,a,b),
 /// det(d,b,c), det(d,c,a), of S = det(a,b,c) at p, and of S - det(d,a,b) - det(d,b,c) - det(d,c,a) at q. The
 /// last is in error by four times as much as the others, and by the roundings of three sums of numbers up to
 /// 24 m^3, with all differences at most m.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The corners of facets packed into lanes, in the order in which they are tested.
 #include <cellwalk/internal/edge/certain_line.h>
 
 #include <algorithm>

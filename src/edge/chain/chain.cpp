@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The chain by a walk from one end, the reversed chain, and the test whether a segment passes it.
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/walk/star.h>
 
@@ -12,7 +13,7 @@
 namespace cellwalk {
 namespace {
 
-/// What doubles prove of a segment and a facet, if that is a triangle.
+/// The proof by doubles for a segment and a facet, if that is a triangle.
 detail::Crossing_proof prove_crossing(const Cell_view<3>& cell, std::size_t i, const Point<3>& p,
                                       const Point<3>& q, Walk_counts& counts) {
   const auto loop = cell.loop(i);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The way of an edge before edits, piece by piece, and the search for a chain linked with it.
 #include <cellwalk/internal/edge/chain_as_before.h>
 
 #include <algorithm>

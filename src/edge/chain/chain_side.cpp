@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The intersections of an edge with facets, and the cells linked with its chain at a parameter.
 #include "chain_side.h"
 
 #include <cellwalk/internal/walk/link_search.h>

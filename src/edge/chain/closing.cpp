@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for chains that avoid the new walls and equal the present one elsewhere.
 #include <cellwalk/internal/edge/closing.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>
@@ -30,7 +31,8 @@ bool has_cell(const Cells& cells, Cell c) {
   return std::find(cells.begin(), cells.end(), c) != cells.end();
 }
 
-/// The rule of a search for chains that avoid what is closed, and are equal to one that may pass it.
+/// The rule of a search for chains that avoid the facets and the cell that are closed, and are equal to one
+/// that may pass them.
 template <int D>
 class Closing_rule {
  public:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The comparison of the facets in which two chains differ with those round a ridge.
 #include "differ_around_ridge.h"
 
 #include <boost/container/small_vector.hpp>

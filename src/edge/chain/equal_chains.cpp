@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The pieces of two chains compared in exact order, and the first point at which they part.
 #include "equal_chains.h"
 
 #include <cellwalk/internal/walk/link_search.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The signs and bounded times of the ridges of a chain, and the exchange of facets at each event.
 #include <cellwalk/internal/edge/ridge_relink.h>
 #include <cellwalk/internal/walk/star.h>
 

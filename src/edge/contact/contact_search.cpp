@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bisection of the motion, and the segment-wise and exhaustive searches.
 #include "contact_search.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

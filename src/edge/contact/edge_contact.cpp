@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rounded time, place and normal of a contact with a wall, at a point or at a ridge.
 #include "edge_contact.h"
 
 #include <cellwalk/internal/edge/edge_contact.h>

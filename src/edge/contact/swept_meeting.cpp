@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Features clipped in the triangle by their half-spaces, and the normals of their meetings.
 #include "swept_meeting.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The first of all meetings, where of several in one place the walls that face the edge are preferred.
 #include "touch.h"
 
 #include <cellwalk/internal/edge/may_intersect.h>

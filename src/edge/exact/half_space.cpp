@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bounding planes of facets and of the sides of their ridges.
 #include "half_space.h"
 
 namespace cellwalk::detail {

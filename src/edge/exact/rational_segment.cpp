@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Spans of a segment clipped by half-spaces, and the lowest feature at a parameter.
 #include "rational_segment.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The comparison of the chain of each edge with the side on which its face begins.
 #include "borders.h"
 
 #include <cellwalk/internal/walk/signs.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A flood from the first cell, by boxes and float planes of the facets of each block.
 #include "broad_phase.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The position of a face relative to a new wall, and its supporting walls among others.
 #include <cellwalk/internal/edge/closing_face.h>
 
 #include "find_supporting_walls.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice of the sweep, by volume or in the plane, and the first touch of all walls near.
 #include <cellwalk/edge/face.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/walk/signs.h>
@@ -97,8 +98,8 @@ class Face_sweep {
   Half_facet wall_ = Half_facet::none;
 };
 
-/// The supporting walls of a face that moved in its plane: walls in the plane that are joined under what it
-/// swept have it on one side all the time, and its edges, too.
+/// The supporting walls of a face that moved in its plane: walls in the plane that are joined under the area
+/// that it swept have it on one side all the time, and its edges, too.
 Face_registration moved_in_plane(const Snapshot<3>& snapshot, const Corners& corners, const Particle<3>& p,
                                  const Particle<3>& q, const Particle<3>& r, const Face_chains& chains,
                                  const Candidate_walls& candidates, const Supporting_walls& known,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The walls that enter or leave the plane of a face, and the way of the vertex through it.
 #include <cellwalk/internal/edge/face_at_star.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
@@ -116,7 +117,7 @@ class Passing_vertex {
   bool is_inwards(const Point<3>& x) const {
     for (std::size_t k = 0; k < 3; ++k) {
       if (weights_[k] != 0) continue;
-      // Seen against the way, the corners turn as to_side_ says. The place may be one of the two.
+      // Seen against the way, the corners turn by the sign of to_side_. The place may be one of the two.
       const int inner = turn(x, corners_[(k + 1) % 3]) + turn(corners_[(k + 2) % 3], x);
       if (inner * to_side_ <= 0) return false;
     }

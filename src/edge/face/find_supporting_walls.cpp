@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The start of the search for supporting walls from the chains of the three sides.
 #include "find_supporting_walls.h"
 
 #include <cellwalk/internal/kernel/predicates.h>
@@ -26,7 +27,7 @@ std::array<Face_side, 3> sides_of(const Face_chains& chains, const Particle<3>& 
 
 Swept_in_plane swept_in_plane(const Corners& corners, Walk_counts& counts) {
   Swept_in_plane triangles;
-  // All triangles of the points: those on either side of one diagonal do not see what lies along it.
+  // All triangles of the points: those on either side of one diagonal miss sets that lie along it.
   for (std::size_t left_out = 0; left_out < 4; ++left_out) {
     std::array<Point<3>, 3> triangle;
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = corners[k + (k >= left_out)];

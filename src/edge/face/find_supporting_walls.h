@@ -30,19 +30,19 @@ enum class Known {
   preferred  ///< they are kept if the edges allow it
 };
 
-/// Triangles in one plane that cover what a face sweeps there, so that a set overlaps that if it overlaps one
-/// of them.
+/// Triangles in one plane that cover the area that a face sweeps there: a set overlaps the area if it
+/// overlaps one of them.
 using Swept_in_plane = std::vector<Triangle_in_plane>;
 
-/// What a face sweeps while a corner moves in its plane, from the first of four points to the second: their
-/// convex hull. Empty if they are collinear.
+/// The area that a face sweeps while a corner moves in its plane, from the first of four points to the
+/// second: their convex hull. Empty if they are collinear.
 Swept_in_plane swept_in_plane(const Corners& corners, Walk_counts& counts);
 
 /// The supporting walls of a face, given all walls near it: known ones, those that its edges determine, and
-/// otherwise those on a side that depends on the direction of its plane only. Walls that are joined under
-/// what the face swept have the face on one side. `piercing` is set if walls at one ridge, or an edge, leave
-/// no side for the face: to a wall, seen from the side of the face if the face lies on one.
-/// \param swept what the face swept to come where it is; the triangle alone if it stands
+/// otherwise those on a side that depends on the direction of its plane only. Walls that are joined under the
+/// area that the face swept have the face on one side. `piercing` is set if walls at one ridge, or an edge,
+/// leave no side for the face: to a wall, seen from the side of the face if the face lies on one.
+/// \param swept the area that the face swept on its way to this place; the triangle alone if it stands
 Face_registration find_supporting_walls(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                                         const Swept_in_plane& swept, const std::array<Face_side, 3>& sides,
                                         const Candidate_walls& candidates, const Supporting_walls& known,

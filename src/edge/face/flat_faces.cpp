@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Sides handed on among the faces and edges in one plane until they agree, or a wall parts them.
 #include <cellwalk/internal/edge/flat_faces.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
@@ -13,10 +14,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// All that p takes along in one plane that holds its way: the faces and edges in it move in it, and what is
-/// off it is on one side. Each of the former is on one side of each group of walls that its interior meets on
-/// the way. Two that are joined are on the same side of a wall that has inner points in what the common edge
-/// sweeps, or on the way of p; and in one wedge where walls have a ridge on that way.
+/// All that p takes along in one plane that holds its way: the faces and edges in it move in it, and the
+/// other ones are on one side of it. Each of the former is on one side of each group of walls that its
+/// interior meets on the way. Two that are joined are on the same side of a wall that has inner points in the
+/// area that the common edge sweeps, or on the way of p; and in one wedge where walls have a ridge on that
+/// way.
 class Motion_in_plane {
  public:
   /// \param flat a face that moves in the plane
@@ -117,7 +119,8 @@ class Motion_in_plane {
     for (const Face_side& side : sides_of(chains, path_.to, q, r)) search.follow(side);
   }
 
-  /// Those of some half-facets that have inner points on the way of p or, for an edge in its line, of that.
+  /// The given half-facets that have inner points on the way of p or, for an edge in its line, on the way of
+  /// the edge.
   std::vector<Half_facet> along(std::vector<Half_facet> halves, const std::size_t* edge) const {
     std::erase_if(halves, [&](Half_facet f) {
       const Cell_view<3> cell = snapshot_.view(snapshot_.cell_of(f));
@@ -200,7 +203,7 @@ class Motion_in_plane {
     return Half_facet::none;
   }
 
-  /// Between what is in the plane and what is held on the way, also off the plane.
+  /// Between the parts in the plane and those held on the way, also off the plane.
   bool spread_to_wedges() {
     bool is_new = false;
     for (const auto& part : parts_)
@@ -229,8 +232,8 @@ bool moves_in_its_plane(const Vertex_path<3>& path, const Point<3>& q, const Poi
 }
 
 /// With all edges, and all faces that move off their plane; none if walls part nothing. Where an edge has no
-/// face, its chain says in which wedge it is, also if it lies in a wall or in the line of the way; and that
-/// was followed from the cells through which p walks.
+/// face, its chain determines its wedge, also if it lies in a wall or in the line of the way; and that was
+/// followed from the cells through which p walks.
 std::optional<Ridge_wedges> wedges_on_way(const Snapshot<3>& snapshot, const Vertex_path<3>& path,
                                           std::span<const Edge_at_vertex> edges,
                                           std::span<const Face_at_vertex> faces, Face_counts& counts) {

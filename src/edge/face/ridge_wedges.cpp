@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cyclic order of half-planes around the way, and the wedges that edges, faces and cells occupy.
 #include "ridge_wedges.h"
 
 #include <algorithm>

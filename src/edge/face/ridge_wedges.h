@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The wedges into which walls part the space around the way of a vertex, and what the vertex takes along in
-// them. Theory: docs/sweep.md, faces. All signs are exact.
+// The wedges into which walls part the space around the way of a vertex, and the edges and faces that the
+// vertex takes along in them. Theory: docs/sweep.md, faces. All signs are exact.
 #ifndef CELLWALK_EDGE_FACE_RIDGE_WEDGES_H
 #define CELLWALK_EDGE_FACE_RIDGE_WEDGES_H
 
@@ -15,8 +15,8 @@
 namespace cellwalk::detail {
 
 /// Walls that hold a piece of the way from a to b have half-planes on the line ab, which part the space
-/// around the piece into wedges, one from each half-plane to the next. What starts at p is in one of them on
-/// each piece, and all of it in the same.
+/// around the piece into wedges, one from each half-plane to the next. The edges and faces at p are in one of
+/// them on each piece, and all of them in the same.
 class Ridge_wedges {
  public:
   /// Cost: a flood along the way, and exact fractions for each wall near it.
@@ -29,20 +29,22 @@ class Ridge_wedges {
   void hold_edge(const Point<3>& q);
   /// Holds a face pqr that moves off its plane.
   void hold_face(const Point<3>& q, const Point<3>& r);
-  /// Holds what is where p itself passes: an edge without a face, since its chain was followed from there.
+  /// Holds an edge without a face, which is where p itself passes, since its chain was followed from there.
   void hold_path(const Vertex_path<3>& path);
-  /// Holds what moves in the plane of a wall, on one side of it.
+  /// Holds an edge or a face that moves in the plane of a wall, on one side of it.
   void hold_side(Half_facet half);
-  /// True if what moves in the plane of a wall can, on some piece, not be on the other side of it.
+  /// True if, on some piece, an edge or a face that moves in the plane of a wall cannot be on the other side
+  /// of it.
   bool needs(Half_facet half) const;
-  /// A wall that comes between what is held: at the start of the first piece on which no wedge is left.
+  /// A wall that comes between the edges and faces held: at the start of the first piece on which no wedge is
+  /// left.
   std::optional<Contact<3>> conflict() const;
 
  private:
   /// A half-plane on the line ab.
   struct Half_plane {
     Point<3> point;         ///< a point of it
-    Ring_vector<3> normal;  ///< towards what follows counterclockwise about the way
+    Ring_vector<3> normal;  ///< towards the side that follows counterclockwise about the way
     Half_facet wall;        ///< one that lies in it
   };
   struct Wall_on_way {
@@ -66,7 +68,7 @@ class Ridge_wedges {
   void add_wall(Piece& piece, Half_facet wall) const;
   /// The last half-plane that is not after x.
   std::size_t wedge_of(const Piece& piece, const Half_plane& x) const;
-  /// That of what is between two points less than half a turn apart, with no wall between them.
+  /// The wedge between two points less than half a turn apart, with no wall between them.
   std::size_t wedge_of_angle(const Piece& piece, const Point<3>& q, const Point<3>& r) const;
   /// The cell in which p is just after a time, or one in the same wedge.
   Cell cell_after(const Vertex_path<3>& path, const Fraction& time) const;

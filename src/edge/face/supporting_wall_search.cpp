@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Walls joined into groups at their common ridges, and the choice of a side for each group.
 #include "supporting_wall_search.h"
 
 #include <cellwalk/internal/walk/star.h>

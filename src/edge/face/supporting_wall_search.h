@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walls in the plane of a motion, in groups that have what moves on one side. Theory: docs/sweep.md.
+// The walls in the plane of a motion, in groups that have the moving face or edge on one side. Theory:
+// docs/sweep.md.
 #ifndef CELLWALK_EDGE_FACE_SUPPORTING_WALL_SEARCH_H
 #define CELLWALK_EDGE_FACE_SUPPORTING_WALL_SEARCH_H
 
@@ -13,12 +14,12 @@
 
 namespace cellwalk::detail {
 
-/// Finds for each group of walls in a plane that overlap what a face or an edge sweeps there on which side of
-/// them it is.
+/// For each group of walls in a plane that overlap the area swept there by a face or an edge, finds the side
+/// of them on which the face or edge is.
 class Supporting_wall_search {
  public:
   /// \param triangle of the plane; where the face is in the end
-  /// \param swept what it swept to come there
+  /// \param swept the area that it swept to come there
   /// These and the environment outlive this.
   Supporting_wall_search(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                          const Swept_in_plane& swept, const Candidate_walls& candidates);
@@ -34,19 +35,19 @@ class Supporting_wall_search {
   /// Gives the first group that may be on either side the fixed side. False if there is none.
   bool choose_next();
 
-  /// A wall, if walls at one ridge, or what was taken, leave no side. Seen from the side of the face if it is
-  /// on one.
+  /// A wall, if walls at one ridge, or the sides taken, leave no side. Seen from the side of the face if it
+  /// is on one.
   Half_facet piercing() const { return piercing_; }
   /// The half-facets of walls on the sides that are determined.
   std::vector<Half_facet> taken() const;
-  /// Those of all walls whose cells are on a side of the plane.
+  /// The half-facets of all walls whose cells are on a side of the plane.
   std::vector<Half_facet> halves_at(int side) const;
   /// Those that the face has under it in the end. Groups without a side get the fixed one, as far as walls
   /// allow.
   Supporting_walls under_face() const;
 
  private:
-  /// A side of a wall that overlaps in its plane what the face swept, with free space on it.
+  /// A side of a wall that overlaps the area swept by the face in its plane, with free space on it.
   struct Patch {
     Half_facet half;
     int side;  ///< of the face, on which its cell lies
@@ -57,7 +58,7 @@ class Supporting_wall_search {
     boost::container::small_vector<std::size_t, 2> behind{};
   };
 
-  /// A ridge in the plane of the face that overlaps the interior of what it swept.
+  /// A ridge in the plane of the face that overlaps the interior of the area that it swept.
   struct Ridge {
     std::uint32_t u, v;
     bool is_above = false, is_below = false;  ///< walls at the ridge extend above or below the plane
@@ -81,7 +82,8 @@ class Supporting_wall_search {
 
   Cell_view<3> view(Half_facet f) const { return snapshot_.view(snapshot_.cell_of(f)); }
 
-  /// True if two sets have points in common inside of what the face swept; one set, with that.
+  /// True if two sets have points in common inside the area that the face swept; one set, with the area
+  /// itself.
   template <class... Sets>
   bool overlap(const Sets&... sets) const {
     return std::any_of(swept_.begin(), swept_.end(),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Separating planes first, then facets clipped in volume coordinates, for the first touch.
 #include "swept_tetrahedron.h"
 
 #include <cellwalk/internal/walk/signs.h>

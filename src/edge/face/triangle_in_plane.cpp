@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Overlaps of the triangle with facets and segments, by separating lines.
 #include "triangle_in_plane.h"
 
 #include <cellwalk/internal/walk/signs.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Classes of equal chains from one interval of time to the next, and the way back through them.
 #include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/environment/star_index.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A particle followed from interval to interval, by the classes of linked cells that hold it.
 #include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/star.h>

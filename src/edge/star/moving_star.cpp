@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The walls and cells of the star, the tests which of them keep a particle, and relinked chains.
 #include <cellwalk/internal/edge/moving_star.h>
 #include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/environment/star_index.h>

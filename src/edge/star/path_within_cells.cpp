@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The way through the cells by signs where they suffice, otherwise by exact parameters.
 #include <cellwalk/internal/edge/path_within_cells.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/signs.h>

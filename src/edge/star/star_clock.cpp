@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact times at which a point passes the moving planes, and the sides between them.
 #include "star_clock.h"
 
 #include <cellwalk/internal/environment/star_index.h>
@@ -108,7 +109,7 @@ bool Star_clock<D>::holds(Cell c, const Point<D>& x, const Fraction& time) const
 template <int D>
 bool Star_clock<D>::holds_in_facet(const Cell_view<D>& cell, std::size_t i, const Point<D>& x,
                                    const Fraction& time) const {
-  // Cells around the vertex are simplices: what they hold in the plane of a facet, they hold in the facet.
+  // Cells around the vertex are simplices: points of them in the plane of a facet lie in the facet.
   return side(cell, i, x, time) == 0 && (cell.vertex_count() == D + 1 || in_facet(cell, i, x));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cells along an edge in order, their classes, and the walls between neighbouring ones.
 #include "star_cut.h"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ class Star_cut {
   /// Where a point goes at the end of an interval in which nothing changes.
   Fraction limit(std::size_t k, const Star_segment<D>& then) const;
 
-  /// The number of a cell; that of cells if it is none of them.
+  /// The number of a cell; the count of cells if it is none of them.
   std::size_t number_of(Cell c) const;
   Cell cell(std::size_t number) const { return cells_[number].cell; }
   std::size_t cell_count() const { return cells_.size(); }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The intersections of an edge with still and moving facets as exact spans, kept for reuse.
 #include "star_segment.h"
 
 #include <cellwalk/internal/environment/star_index.h>

@@ -12,7 +12,7 @@
 
 namespace cellwalk::detail {
 
-/// What of an edge does not depend on the time.
+/// The parts of an edge that do not depend on the time.
 template <int D>
 class Still_segment {
  public:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The chain extended by the path of p where the edge gets longer, and the pieces compared otherwise.
 #include "collinear_sweep.h"
 
 #include <algorithm>

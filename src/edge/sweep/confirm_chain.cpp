@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The signs of the old chain at the new position, and the walls that may leave a choice of sides.
 #include "confirm_chain.h"
 
 #include <cellwalk/internal/walk/signs.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The next event of the chain, the chain or contact after it, and the search over sides.
 #include "events.h"
 
 #include <cellwalk/internal/edge/triangle.h>
@@ -308,7 +309,7 @@ Sweep_result<D> follow_events(const Snapshot<D>& snapshot, const Vertex_path<D>&
   if (are_collinear(path.from.position, path.to.position, q.position))
     return collinear_sweep(snapshot, path, q, before, counts, until);
   Event_sweep<D> sweep(snapshot, path, q, counts, until, rule);
-  Sweep_result<D> result = *sweep.run(before);  // what has no choices is nowhere twice
+  Sweep_result<D> result = *sweep.run(before);  // an edge without choices never returns to a state
   if (!result.contact || !sweep.was_relinked()) return result;
   sweep_on_all_sides(snapshot, path, q, before, counts, until, rule, [&](const Sweep_result<D>& other) {
     if (!other.contact || result.contact->exact_time() < other.contact->exact_time()) result = other;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The chain of an edge after a free move, by the cheapest test that proves it.
 #include <cellwalk/edge/sweep.h>
 
 #include "confirm_chain.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The test whether other sides of walls might lead a vertex further than its contact.
 #include <cellwalk/internal/edge/furthest_move.h>
 
 namespace cellwalk {

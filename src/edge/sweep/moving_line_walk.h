@@ -85,7 +85,7 @@ class Moving_line_walk {
     return false;
   }
 
-  static constexpr int most_dead_ends = 8;  ///< so many walks cost as much as relinking
+  static constexpr int most_dead_ends = 8;  ///< this number of walks costs as much as relinking
 
   const Snapshot<D>& snapshot_;
   const Moving_line<D>& line_;

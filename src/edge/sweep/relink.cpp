@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The chains just after a time, searched among all cells linked with the edge in its plane.
 #include "relink.h"
 
 #include <cellwalk/internal/edge/may_intersect.h>
@@ -37,7 +38,7 @@ class Relink_search {
           return now_.in_facet(cell, i).has_value();
         })) {}
 
-  /// Finds the chains that are not equal to each other, in the order of preference, but no more than so many.
+  /// Finds at most `most` chains that are not equal to each other, in the order of preference.
   std::vector<Relinked<D>> run(std::size_t most) {
     if (!lies_in_plane()) return {};
     const Event_time<D> end = next_root();

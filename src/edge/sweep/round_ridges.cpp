@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The corners of the facets of a chain, read from the snapshot for the relinking.
 #include "round_ridges.h"
 
 #include <vector>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The first root of the signs of a chain, and the facets on the other way round its ridge.
 #include "strict_passage.h"
 
 namespace cellwalk::detail {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice of the sweep and the search, and the first of the contacts that they find.
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/edge/furthest_move.h>
 #include <cellwalk/internal/edge/three_segments.h>

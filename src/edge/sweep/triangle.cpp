@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The tests in their order of cost: the old chain, then ridges, then all events.
 #include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/triangle.h>
 

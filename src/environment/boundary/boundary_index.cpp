@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The zones of vertices in which facets are parted, and the renewal of those that are left.
 #include <cellwalk/internal/environment/boundary_index.h>
 
 #include <algorithm>
@@ -11,8 +12,8 @@ namespace {
 
 /// Rounds the bounds of a ball outwards, with a margin.
 constexpr double outwards = 0x1p-50;
-/// The zone of a vertex lies ahead of it by this share of the radius of the one before, but not farther than
-/// so many steps.
+/// The zone of a vertex lies ahead of it by this share of the radius of the one before, but at most this
+/// number of steps.
 constexpr double share_ahead = 0.6, most_steps_ahead = 4;
 /// All facets at a vertex are parted from another one at once if that leaves this share of the radius.
 constexpr double at_once_share = 0.5;
@@ -153,8 +154,8 @@ std::vector<Half_facet> Boundary_index<D>::meeting(std::span<const Point<D>> poi
   return result;
 }
 
-/// Parts what two sets of corners span, if need be with corners that stay where they are instead of in their
-/// zones, and lessens the radius of the way as that asks for.
+/// Parts the hulls of two sets of corners, if need be with corners that stay where they are instead of in
+/// their zones, and lessens the radius of the way accordingly.
 template <int D>
 bool Boundary_index<D>::part(std::span<const Point<D>> points, const Zoned_move<D>& move,
                              std::span<const Corner> low, std::span<const Corner> high, bool is_one_facet) {
@@ -175,7 +176,7 @@ bool Boundary_index<D>::part(std::span<const Point<D>> points, const Zoned_move<
 }
 
 /// Parts the facets at a vertex from all others on its way, and within a radius of its end.
-/// \param stops if true, nothing more is asked once facets were found that cannot be parted
+/// \param stops if true, the search ends once facets were found that cannot be parted
 template <int D>
 void Boundary_index<D>::find_way(std::span<const Point<D>> points, const Zoned_move<D>& move, bool stops) {
   way_.point = move.vertex;
@@ -257,7 +258,7 @@ bool Boundary_index<D>::is_way_free(std::span<const Point<D>> points, std::uint3
   is_way_known_ = false;
   const Vertex& v = vertex(point);
   if (v.is_clear && v.zone.contains(target)) return true;
-  // What goes on in its direction stays longer in a zone that lies ahead.
+  // A vertex that goes on in its direction stays longer in a zone that lies ahead.
   const Point<D>& from = points[point];
   const Vector<D> step = target - from;
   const double ahead = std::min(share_ahead * v.zone.radius, most_steps_ahead * length(step));

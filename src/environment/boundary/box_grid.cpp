@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Hashed cubes on levels by the size of boxes, with chains of buckets.
 #include <cellwalk/internal/environment/box_grid.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for planes between two facets, and the radius that each of them proves.
 #include <cellwalk/internal/environment/parting.h>
 
 #include <algorithm>
@@ -13,10 +14,10 @@ constexpr double not_parted = -1;
 
 /// Of the room between two facets each takes less than half,
 constexpr double fair_share = 0.49;
-/// and of what the zones of others leave, a little less than all.
+/// and of the room that the zones of others leave, a little less than all.
 constexpr double safe_share = 0.98;
-/// So many directions are tried for one facet, or for all at a vertex, as long as they leave less than this
-/// share of what is asked for.
+/// The numbers of directions that are tried for one facet, or for all at a vertex, as long as they leave less
+/// than this share of the requested radius.
 constexpr int tries_one = 12, tries_many = 3;
 constexpr double poor_share = 0.5;
 /// The error of a rounded distance, relative to the largest coordinate: sums and products of a dozen terms,

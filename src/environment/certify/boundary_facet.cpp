@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The overlap of two facets in a plane, decided by their projections.
 #include "boundary_facet.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facets of the boundary, and exact tests of what lies in their planes. Internal to certification.
+// Facets of the boundary, and exact tests of facets in their planes. Internal to certification.
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_FACET_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_BOUNDARY_FACET_H
 

@@ -16,7 +16,7 @@ namespace cellwalk {
 namespace detail {
 namespace {
 
-/// The first facet by whose first vertices no side can be told: all signs against it would be 0.
+/// The first facet by whose first vertices no side can be determined: all signs against it would be 0.
 /// facet_count() if none.
 std::size_t first_without_plane(const Cell_view<3>& cell) {
   std::size_t i = 0;

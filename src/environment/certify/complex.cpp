@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The names of cells and facets in reports, and the error of the lowest cell that fails.
 #include "complex.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Pairs of facets with opposite normals from a grid of boxes, and the width of their common part.
 #include "facing.h"
 
 #include <cellwalk/internal/kernel/box.h>
@@ -16,7 +17,7 @@ namespace {
 /// Of the diagonal: gaps of meshes whose points were rounded or written with few digits. It counts, and
 /// decides nothing.
 constexpr double near_share = 1e-9;
-/// Of the largest coordinate: what a few roundings are off where that is more.
+/// Of the largest coordinate: the error of a few roundings, where that is larger.
 constexpr double rounding_share = 0x1p-49;
 /// Facets are near within this share of the smaller one at most, so that not many are near one, however large
 /// the tolerance is.

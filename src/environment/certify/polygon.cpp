@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The projection axis, and the tests of planarity, convexity and separation of polygons.
 #include "polygon.h"
 
 #include <cmath>

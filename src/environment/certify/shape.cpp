@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The tests that facets form a sphere, that they are planar, and that the cell is convex.
 #include "shape.h"
 
 #include <algorithm>

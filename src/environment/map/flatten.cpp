@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The darts of the map sorted by cell, and written as loops in snapshot order.
 #include <cellwalk/internal/environment/flatten.h>
 
 #include <algorithm>

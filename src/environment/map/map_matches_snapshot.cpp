@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The half-facets of each cell of the map, read by their darts and compared with the stored loops.
 #include "map_matches_snapshot.h"
 
 #include <cellwalk/kernel/error.h>

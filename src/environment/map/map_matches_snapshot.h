@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The test that the map of an environment describes the same cells as its snapshot.
 #ifndef CELLWALK_ENVIRONMENT_MAP_MAP_MATCHES_SNAPSHOT_H
 #define CELLWALK_ENVIRONMENT_MAP_MAP_MATCHES_SNAPSHOT_H
 

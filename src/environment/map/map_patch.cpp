@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Darts and vertices of the new cells: all are allocated before the old ones are unlinked.
 #include "map_patch.h"
 
 #include <cellwalk/kernel/error.h>
@@ -174,7 +175,7 @@ void Map_patch<D>::link_facets() {
       if (f < g) link_across(f, first(g));
     } else if (const Dart<D> outside = dart_outside(f); outside != Dart<D>{}) {
       link_across(f, outside);
-    } else {  // what was linked to an old dart is not any more
+    } else {  // the link to the old dart is gone
       for_each_dart_of_half_facet<D>(map, first(f), unlink);
     }
   }

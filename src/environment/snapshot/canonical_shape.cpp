@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A traversal of the facets of a cell, edge by edge, which numbers vertices as it meets them.
 #include "canonical_shape.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

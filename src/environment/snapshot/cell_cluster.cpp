@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Boxes rounded outwards into the float frame, packed four by four.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
 

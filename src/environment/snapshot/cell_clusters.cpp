@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The layout of clusters by the number of walls, made on demand by any thread.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
 
@@ -10,11 +11,11 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A cluster should have so many walls on average,
+/// The mean number of walls of a cluster,
 constexpr std::size_t walls_a_cluster = 48;
-/// and so many blocks of cells.
+/// and the bounds of its number of blocks of cells.
 constexpr std::size_t least_size = 16, most_size = std::size_t{1} << 14;
-/// So many blocks, at even distances, tell how many walls there are.
+/// The number of blocks, at even distances, from which the number of walls is estimated.
 constexpr std::size_t samples = 4096;
 /// The table has room for this share of further names.
 constexpr std::size_t share_of_room = 4;
@@ -34,7 +35,7 @@ std::uint32_t cluster_size(const Snapshot<D>& snapshot) {
   return static_cast<std::uint32_t>(std::clamp(size, least_size, most_size));
 }
 
-/// Of two threads that make the same, the second takes what the first made.
+/// Of two threads that make the same, the second takes the result of the first.
 template <class T>
 T& publish(std::atomic<T*>& place, std::unique_ptr<T> made) {
   T* expected = nullptr;
@@ -55,7 +56,7 @@ struct Cell_clusters<D>::Table {
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 
-  /// So many clusters have names that are given out.
+  /// The number of clusters whose names are given out.
   std::size_t number_of(const Snapshot<D>& snapshot) const {
     return snapshot.half_facet_slots() / 4 / size + 1;
   }

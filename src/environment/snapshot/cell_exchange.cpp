@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The checks of new cells, their names, and their links with the cells that stay.
 #include "cell_exchange.h"
 
 #include <cellwalk/internal/environment/facet_table.h>

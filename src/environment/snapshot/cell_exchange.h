@@ -11,7 +11,7 @@
 
 namespace cellwalk {
 
-/// See Snapshot::replace_cells(). What it refers to must outlive it.
+/// See Snapshot::replace_cells(). The objects that it refers to must outlive it.
 template <int D>
 struct Cell_exchange {
   using Half_facets = boost::container::small_vector<Half_facet, 64>;

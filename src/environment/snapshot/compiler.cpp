@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The loops, shapes, links and planes of one cell, and changes of its walls that can be undone.
 #include "compiler.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

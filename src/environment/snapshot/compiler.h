@@ -36,11 +36,11 @@ class Snapshot_compiler {
   /// Rotates each loop whose first three vertices are collinear until they are not, if it has three such
   /// consecutive vertices.
   void turn_loops(Cell c);
-  /// Withdraws what planes certify of a cell, before its points move: all of it is decided exactly until
-  /// Snapshot::update_geometry().
+  /// Withdraws the certificates of the planes of a cell, before its points move: all of it is decided exactly
+  /// until Snapshot::update_geometry().
   void withdraw(Cell c);
   class Wall_change;
-  /// What is known of many cells at once was wrong of a cell if it was found since its points began to move.
+  /// Forgets boxes of many cells, which are wrong if they were found since points of a cell began to move.
   void forget(Cell c) { s_.forget(c); }
   /// Raises the epochs, as an edit of points does.
   void raise_epochs() { s_.geometry_epoch_ = ++s_.epoch_; }
@@ -83,8 +83,8 @@ class Snapshot_compiler {
 template <int D>
 class Snapshot_compiler<D>::Wall_change {
  public:
-  /// Makes the change, but for epochs and the list of edits, so that what reads the snapshot can tell what
-  /// comes of it.
+  /// Makes the change, but for epochs and the list of edits, so that readers of the snapshot can find its
+  /// consequences.
   /// \param closed passable facets, each seen from one side
   /// \param opened walls, not on the boundary, each seen from one side
   /// \param turned a solid cell that becomes free, or a free one that becomes solid; or none

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The entries of edits by epoch, renamed at compaction and forgotten when there are too many.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/edit_log.h>
 #include <cellwalk/kernel/error.h>
@@ -140,7 +141,7 @@ Edits_since Edit_log::since(std::uint64_t epoch) const {
   std::vector<std::uint32_t> turned;
   for (const Turned& facet : entries_since(turned_, epoch)) turned.push_back(facet.name);
   std::ranges::sort(turned);
-  for (const std::uint32_t name : turned)  // what was turned twice is as it was
+  for (const std::uint32_t name : turned)  // a facet that was turned twice is as it was
     if (!result.turned_.empty() && result.turned_.back() == name)
       result.turned_.pop_back();
     else

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The frame of the planes, and the error analysis of their conversion to single precision.
 #include "plane_compiler.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of cells, points and walls in the arrays, and free runs of blocks.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/error.h>
 
@@ -27,7 +28,7 @@ std::pair<std::uint32_t, bool> take_run(std::set<std::pair<std::uint32_t, std::u
   return {first, false};
 }
 
-/// False if a point of the cells lies outside the frame: what planes say holds in it only.
+/// False if a point of the cells lies outside the frame: planes are certified in it only.
 template <int D>
 bool are_framed(const Snapshot<D>& snapshot, std::span<const Cell> cells) {
   Float_point<D> mapped;
@@ -46,7 +47,7 @@ Half_facet Snapshot<D>::opposite(Half_facet f) const {
   const Cell other = neighbour(f);
   if (other == Cell::none) return Half_facet::none;
   const Cell own = cell_of(f);
-  // Of two cells that share one facet, the links tell without a look at points.
+  // Of two cells that share one facet, the links decide without a look at points.
   Half_facet only = Half_facet::none;
   bool is_only = true;
   for (std::size_t block = 0; block < block_count(other); ++block) {

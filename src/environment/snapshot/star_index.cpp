@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A flood through the facets at a point, from one stored cell of each of its parts.
 #include <cellwalk/internal/environment/star_index.h>
 
 #include <algorithm>
@@ -137,7 +138,7 @@ std::vector<std::pair<std::uint32_t, Cell>>::iterator Star_index<D>::parts_of(st
   return std::lower_bound(other_parts_.begin(), other_parts_.end(), std::pair(point, Cell{0}));
 }
 
-/// Drops what was kept of a point.
+/// Drops the entries of a point.
 template <int D>
 void Star_index<D>::forget(std::uint32_t point) {
   if (point >= kept_.size() || kept_[point] == none) return;
@@ -147,7 +148,7 @@ void Star_index<D>::forget(std::uint32_t point) {
   kept_[point] = none;
 }
 
-/// Makes the room of what was dropped free.
+/// Frees the room of dropped entries.
 template <int D>
 void Star_index<D>::compact() {
   std::size_t end = 0;

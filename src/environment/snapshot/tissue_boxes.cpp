@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The boxes of runs and groups, computed when a search first needs them.
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/tissue_boxes.h>
 
@@ -7,7 +8,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// So many names of cells are a run, and so many runs a group.
+/// The number of names of cells in a run, and of runs in a group.
 constexpr std::size_t names_a_run = 64, runs_a_group = 64;
 
 /// True for a solid cell, and for a free one at a wall to a free cell.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Loops over indices by several threads, with errors that do not depend on their number.
 #ifndef CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
 #define CELLWALK_ENVIRONMENT_SOUP_PARALLEL_H
 
@@ -19,8 +20,8 @@ void for_each_parallel(std::size_t n, const F& f) {
   });
 }
 
-/// The same for an f that throws an Error where i is unsound. Whatever the number of threads, it is that of
-/// the lowest such i.
+/// The same for an f that throws an Error where i is unsound. Whatever the number of threads, the error of
+/// the lowest such i is thrown.
 template <class F>
 void check_each(std::size_t n, const F& f) {
   try {

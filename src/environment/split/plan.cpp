@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cuts of facets that suit the cells on both sides, repaired by trying other diagonals.
 #include "plan.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Fans and ear clippings of a polygon, all of whose triangles are positive.
 #include "polygon.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The check of every cell of a soup, and the refusal of those that no split can repair.
 #include "soup.h"
 
 #include <cellwalk/kernel/error.h>

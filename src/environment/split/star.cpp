@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for a point that sees all triangles of a cell: a vertex, a mean or the middle of the kernel.
 #include "star.h"
 
 #include <boost/container/small_vector.hpp>

@@ -37,7 +37,7 @@ class Binary_reader {
   }
 
   /// The next bytes, as they are.
-  /// \pre so many are left
+  /// \pre this number of bytes is left
   std::string_view take_bytes(std::size_t count) {
     const std::string_view bytes = rest_.substr(0, count);
     rest_.remove_prefix(count);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The model name in /proc/cpuinfo.
 #include <cellwalk/internal/io/cpu_model.h>
 
 #include <fstream>

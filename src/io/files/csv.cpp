@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Lines split into fields with their quotes, parts of a table for ranks, and the writer of rows.
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/io/mapped_file.h>
 #include <cellwalk/kernel/error.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Writing with fsync of files and folders, and files that grow up to a known length.
 #include <cellwalk/internal/io/durable.h>
 #include <cellwalk/internal/io/own_files.h>
 #include <cellwalk/kernel/error.h>

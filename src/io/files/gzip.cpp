@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The calls of zlib, piece by piece, and the alphabet of base64.
 #include <cellwalk/internal/io/gzip.h>
 #include <cellwalk/kernel/error.h>
 

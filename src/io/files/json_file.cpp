@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Parsing with errors that name the file, and indented text.
 #include <cellwalk/internal/io/json_file.h>
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The mapping of a file by Boost, or a copy of its content.
 #include <cellwalk/internal/io/mapped_file.h>
 
 #include <boost/interprocess/exceptions.hpp>
@@ -37,7 +38,7 @@ Mapped_file map_file(const std::filesystem::path& path) {
     const auto region = std::make_shared<ipc::mapped_region>(file, ipc::copy_on_write);
     return {{static_cast<std::byte*>(region->get_address()), region->get_size()}, region};
   } catch (const ipc::interprocess_exception&) {
-    return copy_of(load_packed(path));  // where files are not mapped; or it says why it cannot be read
+    return copy_of(load_packed(path));  // where files are not mapped; or it fails with the reason
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The search for a module beside the program and in the folders of libraries.
 #include <cellwalk/internal/io/module.h>
 #include <cellwalk/internal/kernel/beside_program.h>
 

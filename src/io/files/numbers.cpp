@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Fractions and hexadecimal numbers without rounding, and the shortest digits of a double.
 #include <cellwalk/internal/io/numbers.h>
 
 #include <boost/multiprecision/cpp_int.hpp>

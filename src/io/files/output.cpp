@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Exchanges of names, and the table of unfinished files that a signal handler removes.
 #include <cellwalk/internal/io/output.h>
 #include <cellwalk/internal/io/own_files.h>
 
@@ -28,7 +29,7 @@ struct Slot {
 };
 std::array<Slot, slot_count> slots;
 
-std::atomic<int> names_change = 0;      // by so many threads now
+std::atomic<int> names_change = 0;      // the number of threads that change names now
 std::atomic<bool> are_removed = false;  // files, or they will be and nothing else is to come
 constexpr useconds_t nap = 100;         // microseconds
 /// About ten seconds: a change of a name on a slow network is waited for, and not for ever.
@@ -107,7 +108,7 @@ void put_in_place(std::span<Output* const> outputs, const std::function<void()>&
     while (done > 0) outputs[--done]->take_back();
     throw;
   }
-  const Hold_signals hold;  // what is not needed any more does not stay
+  const Hold_signals hold;  // an old file that is not needed any more is removed
   for (Output* output : outputs) output->settle();
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Folders opened without following links, and removed from the inside out.
 #include <cellwalk/internal/io/own_files.h>
 #include <cellwalk/kernel/error.h>
 
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The kind of what is neither a folder nor a file with one name, and what to do; empty for these.
+/// The kind of an entry that is neither a folder nor a file with one name, and the remedy; empty for these.
 std::string_view foreign_kind(const struct stat& status) {
   if (S_ISLNK(status.st_mode)) return "a symbolic link: remove it";
   if (S_ISDIR(status.st_mode)) return {};
@@ -34,7 +35,7 @@ constexpr std::size_t listed_size = 2048;  // bytes of names read at a time, at 
 
 bool remove_at(int folder, const char* name, int depth) noexcept;
 
-/// Removes what is in a folder.
+/// Removes the content of a folder.
 void empty_out(int folder, int depth) noexcept {
   alignas(dirent64) char buffer[listed_size];
   for (ssize_t size = 0; (size = getdents64(folder, buffer, sizeof buffer)) > 0;)

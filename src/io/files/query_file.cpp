@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The columns of points in a table, and the reason why a row is invalid.
 #include <cellwalk/internal/io/query_file.h>
 
 #include <fmt/format.h>

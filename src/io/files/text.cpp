@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Text unpacked if it is gzip, its lines and words, and the errors that quote them.
 #include "text.h"
 
 #include <cellwalk/internal/io/numbers.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Repeated corners united, and the facets that remain of such a cell.
 #include "collapsed_cells.h"
 
 #include <fmt/format.h>

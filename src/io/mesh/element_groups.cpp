@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Facets found by the corners of the elements in a group.
 #include "element_groups.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Elements in the order of their numbers, and the kinds of elements of Gmsh.
 #include "element_list.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The choice between volume cells, planar cells and a surface.
 #include "element_soup.h"
 
 #include <fmt/format.h>

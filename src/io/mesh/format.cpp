@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Formats recognised by their first bytes, and otherwise by the extension of the name.
 #include "format.h"
 
 #include <fmt/format.h>

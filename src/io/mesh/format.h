@@ -14,7 +14,7 @@ enum class Format { unknown, off, obj, stl, ply, ovm, poly, wkt, msh, medit, unv
 /// The format by the first bytes; unknown if these are inconclusive.
 Format format_by_content(std::string_view bytes);
 
-/// The format by what only looks like one: for files whose names do not say it, such as pipes.
+/// The format that the content resembles: for files whose names do not show it, such as pipes.
 Format guessed_format(std::string_view bytes);
 
 /// Where the keyword of an OFF file ends within its first word: the number of vertices may follow without a

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// A visible corner found from a convex one, and exact tests of the point between them.
 #include "hole_points.h"
 
 #include <cellwalk/kernel/policies.h>

@@ -121,8 +121,7 @@ class Medit_reader {
     }
   }
 
-  /// Skips what is up to the next keyword, in a section of which only that is known. True if there is
-  /// something.
+  /// Skips all numbers up to the next keyword, in a section that is not read. True if there are any.
   bool skip_numbers() {
     bool is_any = false;
     while (in_.has_word() && !std::isalpha(static_cast<unsigned char>(in_.peek("a number").front())))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The reader of each format, chosen by the content of the file.
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/io/planar_file.h>

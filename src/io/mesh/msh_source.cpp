@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The two encodings of .msh behind one interface, with checks of the counts that they announce.
 #include "msh_source.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ class Msh_text final : public Msh_source {
 
   std::string next_section() override {
     std::string section;
-    while (!section.starts_with('$')) {  // Gmsh skips what is between sections
+    while (!section.starts_with('$')) {  // Gmsh skips text between sections
       in_.leave_line();
       if (!in_.has_word()) return {};
       section = in_.word("a section");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The call of the module of VTK, or the error that the build or the machine has none.
 #include "optional_readers.h"
 
 #include <fmt/format.h>

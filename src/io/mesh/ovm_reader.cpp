@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The reader of .ovm: edges, faces and polyhedra in text, with properties for walls and groups.
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/kernel/error.h>
 

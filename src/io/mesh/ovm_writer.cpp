@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The writer of .ovm: numbers of edges and faces, and properties of walls, solid cells and groups.
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/kernel/error.h>

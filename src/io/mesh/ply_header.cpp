@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The words of the header, parsed line by line and checked.
 #include "ply_header.h"
 
 #include <fmt/format.h>

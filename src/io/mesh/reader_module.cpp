@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The modules by their file names, each loaded once.
 #include "reader_module.h"
 
 #include <cellwalk/internal/io/module.h>

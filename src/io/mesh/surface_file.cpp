@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The parser of each surface format, chosen by the extension.
 #include <cellwalk/io/surface_file.h>
 
 #include "io/files/text.h"

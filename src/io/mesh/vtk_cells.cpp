@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The corners of each VTK cell type in the order of the soup, and its polyhedra from their streams.
 #include "vtk_cells.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The keywords of a legacy file read as VTK reads them, with the sizes of their lists tested.
 #include "vtk_lists.h"
 
 #include <fmt/format.h>
@@ -174,7 +175,7 @@ class Legacy_lists {
     in.word();
     const auto count = in.integer<std::int64_t>();
     const auto numbers = keyword.content == Content::cells ? in.integer<std::int64_t>() : 0;
-    if (!count || !numbers) return;  // VTK says so
+    if (!count || !numbers) return;  // VTK reports it
     for (const std::int64_t announced : {*count, *numbers}) {
       if (announced < 0)
         return refuse(at, fmt::format("announces {} {}: it is broken", announced, keyword.word));
@@ -215,7 +216,7 @@ class Legacy_lists {
     if (is_binary_ && !in.next_line()) return;
     for (std::int64_t i = 0; i < count; ++i) {
       const auto type = number<std::int32_t>(in);
-      if (!type) return;  // VTK says so
+      if (!type) return;  // VTK reports it
       if (!step()) return refuse(at, "a list within others: the file is broken");
       if (*type == polyhedron) types.polyhedra.push_back(static_cast<std::size_t>(i));
     }

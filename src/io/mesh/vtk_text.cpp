@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bound of the number of values that bytes of XML can encode.
 #include "vtk_text.h"
 
 #include <fmt/format.h>

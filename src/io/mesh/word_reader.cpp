@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Words taken across lines, and converted to numbers with errors that name the line.
 #include "word_reader.h"
 
 #include <cellwalk/internal/io/numbers.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The head of a checkpoint, its checksum, and the choice of the newest sound one.
 #include <cellwalk/internal/io/checkpoint_folder.h>
 #include <cellwalk/internal/io/durable.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
@@ -27,12 +28,12 @@ constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::string_view prefix = "step-", suffix = ".checkpoint";
 constexpr std::size_t most_kept = 2;
 
-/// What is wrong with a checkpoint that was not written as a whole, or was changed.
+/// The defect of a checkpoint that was not written as a whole, or was changed.
 struct Damage {
   std::string what;
 };
 
-/// What a file begins with; then come the program and the state.
+/// The head of a file; the program and the state follow.
 struct Sealed {
   std::array<char, 8> magic = io::magic;
   std::uint32_t version = io::version, byte_order = io::byte_order;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The folder of frames, the names of their files, and the text of the collection.
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/frame_series.h>
 #include <cellwalk/kernel/error.h>

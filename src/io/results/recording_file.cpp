@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The writer of recordings: differences of rounded positions, in planes of bytes.
 #include <cellwalk/internal/io/recording_file.h>
 #include <cellwalk/kernel/error.h>
 

@@ -13,7 +13,7 @@ namespace cellwalk::io {
 
 inline constexpr std::string_view recording_magic = "CWMOTN01";
 
-/// The bytes of one frame without what became of the walls: 16 bits a coordinate, 32 a cell, 8 a decision.
+/// The bytes of one frame without the changes of the walls: 16 bits a coordinate, 32 a cell, 8 a decision.
 /// \param points of the walls so far
 inline std::uint64_t recording_frame_size(const Recording_scene& scene, std::uint64_t points) {
   const auto axes = static_cast<std::uint64_t>(scene.dimension);

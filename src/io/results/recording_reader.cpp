@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The reader of recordings, which tests every count and number of a file.
 #include <cellwalk/internal/io/recording_file.h>
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ class Motion_parser {
     scene_.particles = counted(head.at("particles"));
     scene_.lower = head.at("lower");
     scene_.upper = head.at("upper");
-    // Older files do not say.
+    // Older files do not contain it.
     scene_.walls_move = head.value("walls_move", false);
     scene_.walls_change = head.value("walls_change", false);
     for (const nlohmann::json& body : head.at("bodies"))
@@ -95,7 +96,7 @@ class Motion_parser {
                         most = std::numeric_limits<std::uint64_t>::max();
     const bool is_countable = record == 0 || frame_count() <= (most - arrays) / record;
     const std::uint64_t expected = is_countable ? arrays + frame_count() * record : most;
-    // Frames that say which walls come and go have any size.
+    // Frames with lists of walls that come and go have any size.
     if (scene_.walls_change ? bytes_.size() < arrays : bytes_.size() != expected)
       damaged(
           fmt::format("after its head there are {} bytes, and {} were announced", bytes_.size(), expected));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The XML of a grid, with its arrays as text or as compressed base64.
 #include <cellwalk/internal/io/gzip.h>
 #include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/vtu.h>

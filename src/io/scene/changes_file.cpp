@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The keys of a file of changes, and their groups of facets and cells.
 #include <cellwalk/io/changes_file.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The path of each value in its file, and the checks of types, ranges and unknown keys.
 #include "json_node.h"
 
 #include <fmt/format.h>

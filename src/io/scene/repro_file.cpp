@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cells of an environment as JSON, and the coordinates of a motion as hexadecimal numbers.
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/internal/io/repro_file.h>
 

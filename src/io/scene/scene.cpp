@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The keys of each part of a scene: environment, particles, catheter, walls and output.
 #include <cellwalk/io/scene.h>
 
 #include <nlohmann/json.hpp>

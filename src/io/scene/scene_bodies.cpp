@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Shapes by name with their keys, and the starts, motions and materials of bodies.
 #include "scene_bodies.h"
 
 #include <fmt/format.h>

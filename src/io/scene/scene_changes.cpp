@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Changes of values of a scene by the command line, each named by its path.
 #include <cellwalk/io/scene.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Boxes, balls and planes as conditions, and the kinds of changes with their keys.
 #include "scene_parts.h"
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The system calls for files in memory, or for an unlinked one where there are none.
 #include "memory_file.h"
 
 #include <cellwalk/kernel/error.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file without a name, in memory: what a process is given, and what it leaves behind. Unlike a pipe it is
-// never full or empty, so that nobody waits for anybody.
+// A file without a name, in memory: the input of a process, and its output. Unlike a pipe it is never full or
+// empty, so that nobody waits for anybody.
 #ifndef CELLWALK_MESHING_CHILD_MEMORY_FILE_H
 #define CELLWALK_MESHING_CHILD_MEMORY_FILE_H
 

@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
   const auto options = begin_helper(argc, argv, input);
   CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
   CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
-  // CGAL says much, too, of which only the exception matters.
+  // CGAL prints much, too, of which only the exception matters.
   for (std::ostream* const stream : {&std::cerr, &std::clog}) stream->setstate(std::ios_base::failbit);
   try {
     end_with(run(options, input));

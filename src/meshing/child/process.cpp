@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The start by posix_spawn() with given descriptors and signals, and the wait for the end.
 #include "process.h"
 
 #include <cellwalk/kernel/error.h>
@@ -21,7 +22,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// How often a process is looked at where the system does not tell of its end.
+/// The interval at which a process is tested where the system does not report its end.
 constexpr int longest_unwatched = 5;  // milliseconds
 
 /// The files and signals that a process begins with.
@@ -97,14 +98,14 @@ std::optional<Process::End> Process::end(int options) {
   const pid_t found = ::waitpid(id_, &status, options);
   if (found == 0 || (found < 0 && errno == EINTR)) return std::nullopt;
   has_ended_ = true;
-  // A program that ignores the ends of its children is not told how: what was written must tell.
+  // A program that ignores the ends of its children does not get their status: the output must show it.
   if (found < 0) return End{};
   if (WIFSIGNALED(status)) return End{0, WTERMSIG(status)};
   return End{WEXITSTATUS(status), 0};
 }
 
 void Process::kill() const {
-  ::kill(-id_, SIGKILL);  // its group: what it may have started itself
+  ::kill(-id_, SIGKILL);  // its group: processes that it may have started itself
   if (watch_ >= 0)
     syscall(SYS_pidfd_send_signal, watch_, SIGKILL, nullptr, 0);
   else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the library and its helper programs say to each other. A helper is called
+// The protocol of the library and its helper programs. A helper is called
 //
 //   cellwalk-MESHER VERSION PARENT OPTION...
 //

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The search for a helper, its limits of time, and its complaints as errors.
 #include "run_helper.h"
 
 #include <cellwalk/internal/kernel/beside_program.h>
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// How long nobody is asked whether to go on.
+/// The longest time between two tests whether to go on.
 constexpr std::chrono::milliseconds longest_silence{100};
 /// Bytes of a complaint that are read, and those that are shown.
 constexpr std::size_t longest_complaint = 4096, longest_shown = 160;
@@ -48,7 +49,8 @@ constexpr std::size_t longest_complaint = 4096, longest_shown = 160;
                               : "by -DCELLWALK_WITH_MESHING=ON"));
 }
 
-/// The first line of what a helper complained of, with what an assertion says first, in brackets; or nothing.
+/// The first line of the complaint of a helper, with the text that an assertion prints first, in brackets; or
+/// nothing.
 std::string complaint(const Memory_file& messages) {
   const std::vector<std::byte> bytes = messages.read(longest_complaint);
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

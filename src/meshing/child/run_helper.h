@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Helper programs, in processes of their own: what happens there is an answer.
+// Helper programs, in processes of their own: a crash there is an answer.
 #ifndef CELLWALK_MESHING_CHILD_RUN_HELPER_H
 #define CELLWALK_MESHING_CHILD_RUN_HELPER_H
 
@@ -34,14 +34,14 @@ class Used_up : public Error {
   using Error::Error;
 };
 
-/// What a helper made, with indices that are not checked. Several threads may call it.
+/// The output of a helper, with indices that are not checked. Several threads may call it.
 /// \param start from when on its limit of time counts
 /// \throw Used_up (not_certified) if it does not end in time, or runs out of memory
-/// \throw Error(not_certified) if the mesher fails, crashes, or writes what it should not: the name of the
-///        mesher and what it did
+/// \throw Error(not_certified) if the mesher fails, crashes, or writes invalid output: the name of the mesher
+///        and the problem
 /// \throw Error(usage) if there is no such program, or it belongs to another version, or for a limit that is
 ///        not positive; Error(other) if the system cannot run it
-/// \throw what limits.on_wait throws, once the process has ended
+/// \throw as limits.on_wait, once the process has ended
 Mesher_output run_helper(const Helper& helper, const std::vector<std::string>& options,
                          const Mesher_input& input, const Mesher_limits& limits,
                          std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now());

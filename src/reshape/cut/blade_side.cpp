@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The exact signs of edges and points with respect to the pieces of a blade.
 #include "blade_side.h"
 
 #include <cellwalk/internal/kernel/crossing.h>
@@ -71,8 +72,8 @@ Point<3> nearest_on(const std::array<Point<3>, 3>& p, const Vector<3>& normal, c
 }
 
 /// In doubles, the distance of a point from a piece is off by some 2^-50 of that from its corners. Where they
-/// are no farther off than so many times the size of the environment, that is 2^-30 of this size, much less
-/// than cells are wide.
+/// are no farther off than this multiple of the size of the environment, that is 2^-30 of this size, much
+/// less than cells are wide.
 constexpr double farthest = 0x1p20;
 
 Vector<2> normal_of(const std::array<Point<2>, 2>& p) { return unit_normal(p[0], p[1]); }
@@ -142,7 +143,7 @@ double Blade_side<D>::side(const Point<D>& x) const {
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Vector<D> off = x - nearest_on(pieces_[i], normals_[i], x);
     const double distance = length(off), height = dot(off, normals_[i]);
-    constexpr double tie = 1e-9;  // of pieces that are equally near, the one that x lies farthest off tells
+    constexpr double tie = 1e-9;  // of pieces that are equally near, the one that x lies farthest off decides
     if (distance > (1 + tie) * least) continue;
     if (distance >= (1 - tie) * least && std::abs(height) <= std::abs(result)) continue;
     least = std::min(least, distance);

@@ -25,7 +25,7 @@ class Blade_side {
   explicit Blade_side(const Blade<D>& blade);
 
   /// \throw Error(input) for a corner of a piece that lies so far off an environment, given by its box, that
-  ///        doubles do not tell which piece is near a point
+  ///        doubles cannot decide which piece is near a point
   void check_reach(const Box<D>& environment) const;
   const Box<D>& box() const { return box_; }
   /// True if the box of a piece meets a box.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Cells labelled by sides of the blade, edges split, and vertices parted one after the other.
 #include "cutter.h"
 
 #include <cellwalk/internal/environment/boundary_index.h>
@@ -14,7 +15,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// A vertex that is parted goes less far where there is no room, halved so often.
+/// The number of times that the way of a parted vertex is halved where there is no room.
 constexpr int most_halvings = 24;
 /// A blade so near, in half sides of the frame of planes, needs no look at all points.
 constexpr double near_enough = 0x1p18;

@@ -30,7 +30,7 @@ class Cutter {
   /// Opens the groups near all that will be split, so that nothing is refused for them after a change.
   /// \throw Error(usage) for a particle near that does not lie in its cell
   void prepare();
-  /// \param before what was cut already, which is added
+  /// \param before the report of cuts made already, which is added
   Cut_report run(Cut_report before);
 
  private:

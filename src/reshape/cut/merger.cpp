@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cells around both points with one of them replaced, and the reasons why they may not merge.
 #include "merger.h"
-
 
 #include <algorithm>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The edges of membranes split at both borders of the slit, and the facets between opened.
 #include "slitter.h"
 
 #include <cellwalk/internal/kernel/predicates.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The tests that a split keeps cells positive and solid off free space, and the patch of it.
 #include "tissue_patch.h"
 
 #include <cellwalk/internal/environment/star_index.h>
@@ -208,7 +209,7 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_vertex(std::uint32_t vertex,
   const Snapshot<D>& s = snapshot();
   const std::uint32_t point = s.next_point();
   Cell_soup<D> soup;
-  // Facets at the vertex to what is not taken back.
+  // Facets at the vertex to cells that are not taken back.
   std::vector<std::pair<Cell, std::uint32_t>> outer;
   std::vector<std::uint32_t> others;
   const auto not_made = [&](const char* why) {

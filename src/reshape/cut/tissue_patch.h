@@ -29,7 +29,7 @@ class Tissue_patch {
   /// \throw Error(usage) for a particle that does not lie in its cell
   void open_groups(std::uint32_t u, std::uint32_t v);
 
-  /// What walls do at an edge that is split.
+  /// The behaviour of walls at an edge that is split.
   enum class Walls : std::uint8_t {
     /// Solid retreats: the point lies on the free side of no wall. No wall there parts free cells from each
     /// other, free cells meet the edge on one side only, and no body's face rests on a wall there.
@@ -55,7 +55,8 @@ class Tissue_patch {
 
  private:
   static constexpr std::size_t corner_count = static_cast<std::size_t>(D) + 1;
-  /// The point goes off into the solid by so many units in the last place, doubled so often.
+  /// The number of times that the shift of a point into the solid is doubled, from one unit in the last
+  /// place.
   static constexpr int most_shifts = 8;
   using Simplex = std::array<std::uint32_t, corner_count>;
   /// A facet of a simplex that lacks one of its corners.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The residents near a star, followed on one combination of sides after the other.
 #include "vertex_trial.h"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ void Vertex_trial<D>::note_first_choice(const Reshape_counts& before) {
       grew(&Reshape_counts::same_cell) + grew(&Reshape_counts::same_chain) + grew(&Reshape_counts::apart);
 }
 
-/// Of what is in the way, the first is kept.
+/// Of several obstructions, the first is kept.
 template <int D>
 void Vertex_trial<D>::note(Obstruction& first, Obstruction next) {
   first.meeting = std::max(first.meeting, next.meeting);
@@ -116,8 +117,8 @@ bool Vertex_trial<D>::try_vertices(const Moving_star<D>& star, std::span<const M
   return true;
 }
 
-/// Where something is not free because of its sides of walls: a vertex of it that keeps its cell may take
-/// another side than that of the cell. Then all vertices of the body are followed by the choices to come.
+/// Where something is not free because of its sides of walls: a vertex of it that keeps its cell may take a
+/// side away from its cell. Then all vertices of the body are followed by the choices to come.
 template <int D>
 void Vertex_trial<D>::follow_kept(const Moving_star<D>& star,
                                   std::initializer_list<const Moved_vertex*> vertices) {
@@ -164,7 +165,7 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   return false;
 }
 
-/// What blocks something that walls touch.
+/// Takes over the obstacle to a resident that walls touch.
 template <int D>
 void Vertex_trial<D>::take(std::optional<Star_block>& block, Star_meeting& met) const {
   if (!block) return;
@@ -223,7 +224,7 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
       }
       take(followed.block, met);
     }
-    // A blocked end says it all of what is only touched until then.
+    // A blocked end decides for an edge that is only touched until then.
     if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge, Body_feature::edge);
     return false;
   }

@@ -20,7 +20,7 @@
 
 namespace cellwalk::detail {
 
-/// What is in the way of a move.
+/// The obstruction of a move.
 struct Obstruction {
   Encounter meeting = Encounter::apart;
   // The first hit, if it was to be located:
@@ -30,8 +30,8 @@ struct Obstruction {
   Body_feature feature = Body_feature::vertex;  ///< which kind of member was hit: its number is that of one
 };
 
-/// One after the other: run() decides about a move, prepare() finds the memory that commit() needs, and that
-/// registers what the move touched. Kept for its memory.
+/// One after the other: run() decides about a move, prepare() finds the memory that commit() needs, and
+/// commit() registers the residents that the move touched. Kept for its memory.
 template <int D>
 class Vertex_trial {
  public:
@@ -41,7 +41,8 @@ class Vertex_trial {
   /// \param cells the cells around it
   /// \param any if true, the first obstruction found will do
   Obstruction run(const Moving_star<D>& star, std::span<const Cell> cells, bool any);
-  /// What run() looked at by the first choice of sides, and how much of that certificates decided.
+  /// The number of residents that run() looked at by the first choice of sides, and of those that
+  /// certificates decided.
   std::uint64_t near() const { return near_; }
   std::uint64_t certified() const { return certified_; }
   /// Before commit(), since it takes memory. If no commit() follows, it does no harm.
@@ -88,11 +89,11 @@ class Vertex_trial {
 
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;
-  /// Where vertices and edges of a body may be on several sides of walls, so many choices are tried, each for
-  /// all of them.
+  /// The number of choices that are tried where vertices and edges of a body may be on several sides of
+  /// walls, each for all of them.
   static constexpr std::size_t most_choices = 4;
   std::size_t choice_ = 0, choices_ = 1;
-  bool follows_all_ = false;   ///< also what keeps its cell
+  bool follows_all_ = false;   ///< also vertices that keep their cells
   std::size_t dead_ends_ = 0;  ///< the most sides on which a vertex is blocked after a while, not on others
   bool to_dead_end_ = false;   ///< these are tried
   bool any_ = false;

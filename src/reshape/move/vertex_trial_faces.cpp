@@ -32,7 +32,7 @@ void Vertex_trial<D>::try_faces(const Moving_star<D>& star, std::uint32_t number
   }
 }
 
-/// True if a face is free; then what it rests on is kept, or found.
+/// True if a face is free; then its supporting walls are kept, or found.
 template <int D>
 bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points) {
   Star_meeting met = star.meet(points, !any_);
@@ -47,7 +47,7 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
       supporting_walls_.emplace_back(face, std::move(result.supporting_walls));
       return true;
     }
-    // Once something is in the way, all that matters is what else is hit.
+    // Once something is in the way, only further hits matter.
     if (!result.block && obstruction_.meeting != Encounter::apart) return false;
     if (!result.block) {
       const auto& at = groups_.all()[face.group].faces[face.number];
@@ -60,7 +60,7 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
 }
 
 /// A face that walls touch. If something is in the way already, its corners or edges need not be free, and
-/// what rests on walls is not asked.
+/// its supporting walls do not matter.
 template <int D>
 Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face,
                                     std::span<const Point<D>> points) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The rounded time, place and direction of a hit, and the lowest features that meet.
 #include "wall_hit.h"
 
 #include <cellwalk/internal/kernel/predicates.h>
@@ -26,7 +27,7 @@ std::vector<std::size_t> places_used(const std::vector<Ring>& weights) {
   return result;
 }
 
-/// The points that span what was hit.
+/// The points that span the feature that was hit.
 template <int D>
 std::vector<std::uint32_t> spanning(const Resident_group<D>& group, Body_feature feature,
                                     std::uint32_t number) {
@@ -50,7 +51,8 @@ std::pair<Body_feature, std::uint32_t> lowest(const Resident_group<D>& group,
   return {obstruction.feature, obstruction.member.number};
 }
 
-/// Perpendicular to what meets, and where that leaves a choice, along the motion; else to the wall.
+/// Perpendicular to the features that meet, and where that leaves a choice, along the motion; else to the
+/// wall.
 Vector<2> direction(std::span<const Point<2>> wall, std::size_t of_wall, std::span<const Point<2>> feature,
                     const Vector<2>&) {
   return of_wall == 1 && feature.size() == 2 ? unit_normal(feature[0], feature[1])

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The order of a replacement: residents noted, cells exchanged, residents registered again.
 #include "cell_transaction.h"
 
 #include <cellwalk/internal/environment/boundary_index.h>

@@ -32,22 +32,22 @@ class Cell_transaction {
   /// The free ones of some cells.
   std::vector<Cell> free_of(std::span<const Cell> cells) const;
 
-  /// Fetches into the cache what replace() reads.
+  /// Fetches into the cache the data that replace() reads.
   void prefetch(std::span<const Cell> cells) const { patcher_.prefetch(cells); }
   /// Opens the groups near cells, so that nothing in them is overlooked.
   /// \throw Error(usage) for a particle that does not lie in its cell
   void open(std::span<const Cell> cells);
-  /// Notes what lies in cells, to be registered in those that replace them. See Relinker::note().
+  /// Notes the residents of cells, to be registered in those that replace them. See Relinker::note().
   void note(std::span<const Cell> cells) { relinker_.note(cells); }
   /// True if a face that is kept rests on the walls of the noted cells.
   bool has_rests() const { return relinker_.has_rests(); }
 
-  /// Registers all that lies in free cells in other cells, and returns nothing; or what must be in these,
-  /// sorted, and nothing has changed.
+  /// Registers all that lies in free cells in other cells, and returns nothing; or the residents that must be
+  /// in these, sorted, and nothing has changed.
   /// \param no_faces faces near these cells must not be there either
   std::vector<Resident> leave(std::span<const Cell> free, bool no_faces);
 
-  /// Replaces cells, and registers what was noted in those of the new ones that are given, all or free.
+  /// Replaces cells, and registers the noted residents in those of the new ones that are given, all or free.
   /// Returns the new cells.
   /// \param finish called with them; until it returns, is_broken()
   enum class Into : std::uint8_t { all, free };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The signs of the new cells, and the comparison of their border with that of the old ones.
 #include "patch.h"
 
 #include <cellwalk/internal/environment/cell_patcher.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The operations tried on the worst cells, each kept if the least quality rises.
 #include "relaxer.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 
 /// A vertex goes to the mean of its neighbours, or so far towards it.
 constexpr std::array<double, 4> shares_of_way{1, 0.75, 0.5, 0.25};
-/// What does not raise the least quality by this factor is not worth it, and might be undone again.
+/// An operation that does not raise the least quality by this factor is not worth it, and might be undone
+/// again.
 constexpr double least_gain = 1 + 0x1p-10;
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Better cells where there are no walls: vertices move, cells are replaced. Qualities choose what is tried.
+// Better cells where there are no walls: vertices move, cells are replaced. Qualities choose the operations
+// that are tried.
 #ifndef CELLWALK_RESHAPE_REPLACE_RELAXER_H
 #define CELLWALK_RESHAPE_REPLACE_RELAXER_H
 
@@ -14,7 +15,7 @@ namespace cellwalk::detail {
 template <int D>
 class Relaxer {
  public:
-  /// \param move moves a vertex, and says whether it arrived
+  /// \param move moves a vertex, and returns whether it arrived
   Relaxer(Environment<D>& environment, Replacer<D>& replacer, const Relax_options& options,
           std::function<bool(std::uint32_t, const Point<D>&)> move);
 

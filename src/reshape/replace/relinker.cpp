@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The cells of particles and the runs of chains in replaced cells, found anew among the new ones.
 #include "relinker.h"
 
 #include <cellwalk/internal/edge/path_within_cells.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What lies in cells that are replaced by others over the same region. Theory: docs/cutting.md, replacing
+// The residents of cells that are replaced by others over the same region. Theory: docs/cutting.md, replacing
 // cells.
 #ifndef CELLWALK_RESHAPE_REPLACE_RELINKER_H
 #define CELLWALK_RESHAPE_REPLACE_RELINKER_H
@@ -23,7 +23,7 @@ class Relinker {
   Relinker(Resident_groups<D>& groups, const Snapshot<D>& snapshot, Walk_counts& counts)
       : groups_(groups), snapshot_(snapshot), counts_(counts) {}
 
-  /// Notes what lies in cells that will be replaced.
+  /// Notes the residents of cells that will be replaced.
   /// \pre they are simplices, all facets between them are passable, and the groups near them are open
   void note(std::span<const Cell> removed);
   /// True if a face that is kept rests on their walls.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The patches of flips, splits and collapses, with the reasons why they may not be made.
 #include "replacement.h"
 
 #include <cellwalk/internal/environment/star_index.h>

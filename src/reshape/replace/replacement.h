@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Replacements of cells by others over the same region, with what lies in them.
+// Replacements of cells by others over the same region, with their residents.
 #ifndef CELLWALK_RESHAPE_REPLACE_REPLACEMENT_H
 #define CELLWALK_RESHAPE_REPLACE_REPLACEMENT_H
 
@@ -16,11 +16,11 @@
 
 namespace cellwalk::detail {
 
-/// See Reshaping for what the operations do.
+/// The operations are described at Reshaping.
 template <int D>
 class Replacer {
  public:
-  /// \param mover what it has withdrawn is restored before cells are replaced
+  /// \param mover the certificates that it has withdrawn are restored before cells are replaced
   Replacer(Cell_transaction<D>& transaction, Vertex_mover<D>& mover)
       : transaction_(transaction), mover_(mover) {}
 
@@ -30,7 +30,7 @@ class Replacer {
   Replacement remove_edge(std::uint32_t u, std::uint32_t v);
   Replacement collapse(std::uint32_t u, std::uint32_t onto);
 
-  /// What an operation would replace, for whoever wants to know before.
+  /// The replacement that an operation would make, for callers that evaluate it before.
   /// `reason` is set if it is refused.
   Patch<D> split(std::uint32_t u, std::uint32_t v, const Point<D>& position, std::string& reason) const;
   Patch<D> flipped(Half_facet facet, std::string& reason) const;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The two halves of each cell at an edge of walls, if the new point lies exactly on the edge.
 #include "wall_edge.h"
 
 #include <cellwalk/internal/environment/star_index.h>

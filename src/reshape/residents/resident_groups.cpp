@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The table from cells to residents, entered when it is first needed, and renewed when outdated.
 #include "resident_groups.h"
 
 #include <cellwalk/body/verified_stop.h>
@@ -11,7 +12,7 @@
 namespace cellwalk::detail {
 namespace {
 
-/// So many entries may be outdated or not before all are made anew.
+/// The number of entries, outdated or not, beyond which all are made anew.
 std::size_t most_for(std::size_t entries) { return 4 * entries + 4096; }
 
 void sort_unique(std::vector<Member>& members) {
@@ -211,7 +212,7 @@ void Resident_groups<D>::enter_edge(Member edge, Cell first, const Chain& now, c
   for (auto f = begin; f != end; ++f) enter(snapshot_.neighbour(*f), edge, true);
 }
 
-/// Enters all anew, once most of what is entered may be outdated.
+/// Enters all anew, once most entries may be outdated.
 template <int D>
 void Resident_groups<D>::enter_anew() {
   auto first = std::exchange(first_, {});

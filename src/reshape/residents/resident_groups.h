@@ -36,8 +36,9 @@ struct Member {
   auto operator<=>(const Member&) const = default;
 };
 
-/// Groups are opened when a vertex of the environment moves near them: all that is stale is registered while
-/// what it depends on still stands. From then on their vertices and edges are known by cell.
+/// Groups are opened when a vertex of the environment moves near them: stale vertices and edges are
+/// registered while the cells on which they depend still stand. From then on their vertices and edges are
+/// known by cell.
 template <int D>
 class Resident_groups {
  public:
@@ -71,8 +72,8 @@ class Resident_groups {
   /// The faces of bodies that keep faces, and are open, whose boxes meet a box.
   std::vector<Member> faces_near(const Box<D>& box) const;
 
-  // Entries into the table of cells, for what is to be registered anew: they come first, since they take
-  // memory. Old ones stay, and those of what is not registered anew after all do no harm.
+  // Entries into the table of cells, for members that are to be registered anew: they come first, since they
+  // take memory. Old ones stay, and those of members that are not registered anew after all do no harm.
   void enter_vertex(Member vertex, Cell cell) { enter(cell, vertex, false); }
   /// \param first the cell of its first end then
   /// \param now its chain then

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The vertices, edges and faces at new walls, and the sides that they are given together.
 #include "shrinkage.h"
 
 #include <cellwalk/internal/kernel/predicates.h>
@@ -10,8 +11,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Faces in the plane of a new wall are tried on both of its sides: of so many all ways, of more all on one
-/// side, then all on the other.
+/// Faces in the plane of a new wall are tried on both of its sides: up to this number in all combinations,
+/// more of them all on one side, then all on the other.
 constexpr std::size_t most_free_faces = 4;
 
 template <int D>
@@ -100,7 +101,7 @@ void Shrinkage<D>::make() {
   }
 }
 
-/// True if an edge is at what is closed, so that its chain may have to change.
+/// True if an edge is at a facet or cell that is closed, so that its chain may have to change.
 /// \param is_parted set if the edge passes a new wall inside, so that it has no chain then
 template <int D>
 bool Shrinkage<D>::touches(std::uint32_t group, std::uint32_t edge, bool& is_parted) const {

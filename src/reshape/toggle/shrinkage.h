@@ -35,9 +35,9 @@ class Shrinkage {
   Shrinkage(const Shrinkage&) = delete;
   Shrinkage& operator=(const Shrinkage&) = delete;
 
-  /// Finds what forbids the change, sorted. Nothing is changed, but that groups near are opened.
+  /// Finds the residents that forbid the change, sorted. Nothing is changed, but that groups near are opened.
   std::vector<Resident> holders();
-  /// Makes the change, and registers what is near. An error leaves all as it was.
+  /// Makes the change, and registers the residents near. An error leaves all as it was.
   /// \pre holders() found none
   void make();
 
@@ -80,7 +80,7 @@ class Shrinkage {
   std::vector<Member> vertices_, edges_;
   std::vector<Near_face> faces_;                                ///< of the group that is tried
   std::vector<std::pair<std::uint32_t, Half_facet>> in_plane_;  ///< of these, with the wall that they overlap
-  std::vector<Group> free_;                                     ///< with what becomes of them
+  std::vector<Group> free_;                                     ///< with their registration after the change
   std::vector<Resident> held_by_;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The sides of vertices narrowed along edges, and the search for a choice that suits all.
 #include "side_choice.h"
 
 #include <cellwalk/internal/walk/link_search.h>

@@ -45,7 +45,7 @@ class Side_choice {
   /// forget_demands().
   void demand(std::uint32_t edge, Half_facet at);
   void forget_demands();
-  /// Finds sides for all. False if there are none, or after so many tries.
+  /// Finds sides for all. False if there are none, or after a limit of tries.
   bool choose();
   /// An edge that was without a side when the last choice failed.
   std::uint32_t failed() const { return failed_; }
@@ -87,7 +87,7 @@ class Side_choice {
   Walk_counts& counts_;
   Vertices vertices_;
   std::map<std::uint32_t, Edge> edges_;
-  // What is registered anew:
+  // Vertices and edges that are registered anew:
   std::vector<std::pair<std::uint32_t, Particle<D>>> moved_;
   std::vector<std::pair<std::uint32_t, Chain>> chains_;
   std::uint32_t failed_ = 0;

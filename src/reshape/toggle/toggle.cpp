@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The conditions of each change of facets and cells, and the faces that rest on walls opened.
 #include "toggle.h"
 
 #include <algorithm>
@@ -61,8 +62,8 @@ Outcome Toggle<D>::excavate(Cell cell) {
   return made();
 }
 
-/// What faces rest on once some facets are no walls any more. They are on the same sides of all others, also
-/// if something of their bodies is stale.
+/// The supporting walls of faces once some facets are no walls any more. The faces are on the same sides of
+/// all others, also if parts of their bodies are stale.
 template <int D>
 typename Toggle<D>::Rests Toggle<D>::rests_without(std::span<const Half_facet> facets) const {
   Rests rests;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Impulses found by repeated passes over the contacts, and friction along the walls.
 #include "contact_response.h"
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Contacts of one step disturb each other: so often they are gone through at most, and no longer than speeds
-/// change by more than this share of the fastest.
+/// Contacts of one step disturb each other. They are passed over at most this number of times, and no longer
+/// than speeds change by more than this share of the fastest.
 constexpr int impulse_passes = 32;
 constexpr double settled = 1e-9;
 
@@ -75,7 +76,7 @@ Place<D> place_of(const Body<D>& body, const Contact<D>& met, const Rigid_frame<
   return place;
 }
 
-/// Impulses so far, and what they changed.
+/// The impulses so far, and their effect on the velocities.
 template <int D>
 class Impulses {
  public:

@@ -27,7 +27,7 @@ struct Answer {
 /// which no place goes into its wall (projected Gauss-Seidel); then friction acts where there is one; then
 /// places that bounce get their share of the impulse once more (Moreau's rule). For a rigid body (a = 1)
 /// without friction that keeps all energy with restitution 1, whatever the contacts. A deformable one may
-/// gain a little from what deforms it: the caller limits that.
+/// gain a little from its deformation: the caller limits that.
 /// \pre contacts are of this body, velocities are finite
 /// Cost: some us, and 50 ns a contact and pass.
 template <int D>

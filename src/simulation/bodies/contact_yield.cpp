@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The depth of a contact, shared among the corners of its wall by their weights.
 #include "contact_yield.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// How far a contact with a body asks a wall to yield.
+// The yield of a wall that a contact with a body requires.
 #ifndef CELLWALK_SIMULATION_BODIES_CONTACT_YIELD_H
 #define CELLWALK_SIMULATION_BODIES_CONTACT_YIELD_H
 
@@ -16,8 +16,8 @@ namespace cellwalk::detail {
 template <int D>
 using Yields = std::vector<std::pair<std::uint32_t, Vector<D>>>;
 
-/// Adds what a contact of the last step of a world asks of the corners of the wall: so that the wall yields
-/// there by a share of what was left of the motion against it.
+/// Adds the yields of the corners of the wall that a contact of the last step of a world requires: the wall
+/// yields there by a share of the rest of the motion against it.
 template <int D>
 void add_yields(const Snapshot<D>& snapshot, const World<D>& world, const Run_contact<D>& met, double share,
                 Yields<D>& yields);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The prediction along the motion of the whole, and the bound of the energy after contacts.
 #include <cellwalk/simulation/deformable.h>
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace cellwalk {
 namespace {
 
-/// A body that walls give no more momentum than it gains by falling for so many steps does not bounce.
+/// A body that walls give no more momentum than it gains by falling for this number of steps does not bounce.
 constexpr double resting_steps = 2;
 
 template <int D>
@@ -53,7 +54,8 @@ double Deformable<D>::height_energy(const Vector<D>& gravity) const {
   return sum;
 }
 
-/// Slows the vertices down to this kinetic energy: first what deforms the body, then its motion as a whole.
+/// Slows the vertices down to this kinetic energy: first the motion that deforms the body, then its motion as
+/// a whole.
 template <int D>
 void Deformable<D>::limit(double most) {
   most = std::max(0.0, most);
@@ -74,7 +76,7 @@ void Deformable<D>::limit(double most) {
     const Vector<D> v = motion.at(frame.arm(positions[i]));
     velocities_[i] = of_whole * v + of_rest * (velocities_[i] - v);
   }
-  // What rounding left over.
+  // The excess that rounding left.
   if (const double left = kinetic_energy(); left > most)
     for (Vector<D>& v : velocities_) v = (std::sqrt(most / left) * (1 - 0x1p-50)) * v;
 }
@@ -138,7 +140,7 @@ void Deformable<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& 
     detail::answer_contacts<D>(body_, std::span(contacts).subspan(first),
                                {conditions.restitution, conditions.friction, resting, stiffness}, moved_,
                                velocities_);
-    // Walls take away first what gravity has just added: it moved nothing.
+    // Walls first take the energy away that gravity has just added: it moved nothing.
     level -= std::max(0.0, free - kinetic_energy() - gained);
   }
   level += height_before - height_energy(conditions.gravity);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Yields spread among neighbouring points of walls, and their recovery in each step.
 #include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/elastic_foundation.h>
@@ -80,7 +81,7 @@ Elastic_foundation<D>::Elastic_foundation(const Snapshot<D>& snapshot, const Sof
   for (std::size_t i = 0; i < starts_.size(); ++i) first_[i + 1] += first_[i];
 }
 
-/// Each vertex keeps half of what is asked of it, and its neighbours get the other half.
+/// Each vertex keeps half of its increment, and its neighbours get the other half.
 template <int D>
 void Elastic_foundation<D>::spread(Increments& increments) const {
   std::map<std::uint32_t, Vector<D>> sums;

@@ -15,7 +15,7 @@ inline bool are_below(const std::vector<std::uint32_t>& numbers, std::size_t bou
   return std::ranges::all_of(numbers, [&](std::uint32_t n) { return n < bound; });
 }
 
-/// True if `first` divides numbers below a bound into so many lists.
+/// True if `first` divides numbers below a bound into the given number of lists.
 inline bool are_lists(const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& numbers,
                       std::size_t lists, std::size_t bound) {
   return first.size() == lists + 1 && first.front() == 0 && first.back() == numbers.size() &&

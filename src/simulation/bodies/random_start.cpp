@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Points drawn in the boxes of free cells until one lies in its cell, and unit vectors.
 #include "random_start.h"
 
 #include <cellwalk/internal/kernel/box.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Momenta, spins and axis rotations about the centre of mass.
 #include "rigid_motion.h"
 
 #include <cmath>

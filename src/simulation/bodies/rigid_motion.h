@@ -59,7 +59,7 @@ class Rigid_frame {
   Vector<D> arm(const Point<D>& x) const { return x - centre_; }
   /// The angular momentum about the centre.
   Spin<D> momentum_of(std::span<const Point<D>> positions, std::span<const Vector<D>> velocities) const;
-  /// What turns with this angular momentum.
+  /// The spin with this angular momentum.
   Spin<D> spin_of(const Spin<D>& momentum) const;
   /// The rigid motion nearest to these velocities, in the sense of energy: it has their momenta.
   Rigid_motion<D> motion_of(std::span<const Point<D>> positions, std::span<const Vector<D>> velocities) const;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The advance of the rod, the waypoints of its tip, and the turn of its base.
 #include <cellwalk/simulation/rod.h>
 
 #include <algorithm>
@@ -12,10 +13,10 @@
 namespace cellwalk {
 namespace {
 
-/// In spacings: a link that is longer than it should be by so much holds the base back, as does a rod that
-/// has been pushed together by so much.
+/// In spacings: the base is held back if a link is longer than it should be by the first length, or if the
+/// rod has been pushed together by the second one.
 constexpr double most_stretched = 0.5, most_compressed = 1;
-/// In steps of the advance: what was pushed together may come out this fast.
+/// In steps of the advance: a rod that was pushed together may come out this fast.
 constexpr double fastest = 2;
 constexpr double radians = std::numbers::pi / 180;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Bends transported along the links, and the passes of the relaxation.
 #include "rod_shape.h"
 
 #include <algorithm>
@@ -8,8 +9,8 @@
 namespace cellwalk::detail {
 namespace {
 
-/// Passes of a relaxation: in one step a bend is felt so many links away, and the rest of it goes in the
-/// steps that follow.
+/// Passes of a relaxation: in one step a bend is felt at this distance in links, and the rest of it goes in
+/// the steps that follow.
 constexpr int relaxation_passes = 12;
 
 /// Takes a vector across one direction to one across another, by the least rotation.
@@ -113,8 +114,8 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
   std::size_t last = 1;  // the first vertex, from the tip on, that is straight by nature
   while (last < count && bend.angle(last, state.spacing) > 0) ++last;
   if (last < 2) return;
-  // What bends each vertex beside its nature, before. It stays where it is while vertices go on by part of a
-  // link.
+  // The bend of each vertex beside its natural one, before. It stays where it is while vertices go on by part
+  // of a link.
   const std::vector<Vector<D>> across = curve_directions<D>(before, twist_before, old);
   std::vector<Vector<D>> excess(last + 1, Vector<D>{});
   // At the entry the guide holds the rod straight.
@@ -139,7 +140,7 @@ void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const P
 
 namespace {
 
-/// What does not change in the passes of a relaxation, of a vertex between two links.
+/// The constants of a vertex between two links in the passes of a relaxation.
 struct Joint {
   double t, one_less_t;        ///< the share of the second end in the place of the vertex on a line
   double first, second, step;  ///< shares of the ends in a correction, and its size

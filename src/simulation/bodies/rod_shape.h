@@ -29,7 +29,7 @@ struct Rod_state {
   double rest_before(std::size_t vertices, std::size_t i) const;
   /// The vertex, or the entry, that lies behind it.
   Point<D> before(std::span<const Point<D>> vertices, std::size_t i) const;
-  /// From there to the vertex; where it has not entered, that of the guide.
+  /// The direction from there to the vertex; where it has not entered, the direction of the guide.
   Vector<D> tangent(std::span<const Point<D>> vertices, std::size_t i) const;
 };
 
@@ -55,8 +55,8 @@ struct Natural_bend {
   }
 };
 
-/// Takes the natural curve of the tip along with it, turned as the base is now: what else bends the rod there
-/// stays where it is, as walls do. `old` are the vertices as they were before they were pushed and turned.
+/// Takes the natural curve of the tip along with it, turned as the base is now: other bends of the rod stay
+/// where they are, as walls do. `old` are the vertices as they were before they were pushed and turned.
 template <int D>
 void bend_tip(const Rod_state<D>& before, double twist_before, std::span<const Point<D>> old,
               const Rod_state<D>& state, const Natural_bend<D>& bend, std::span<Point<D>> vertices);

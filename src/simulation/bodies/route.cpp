@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The shortest way through centres of cells, shortened by walks in a straight line.
 #include <cellwalk/internal/simulation/route.h>
 
 #include <algorithm>

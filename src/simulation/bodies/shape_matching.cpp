@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The moments of a shape, their nearest rotation, and the scaling that keeps the volume.
 #include <cellwalk/simulation/shape_matching.h>
 
 #include <algorithm>
@@ -123,7 +124,7 @@ void Shape_matching<D>::goals(std::span<const Point<D>> positions, std::span<Poi
     std::array<Vector<D>, D> linear = product(moments, linear_inverse_);
     if (material_.keeps_volume && is_full_) {
       const double volume = determinant(linear);
-      // What is flat or inside out has no scale that gives it the volume of the rest shape; the rotation has
+      // A flat or inverted shape has no scale that gives it the volume of the rest shape; the rotation has
       // it.
       if (volume > 0)
         for (Vector<D>& row : linear) row = std::min(most_inflation, 1 / root<D>(volume)) * row;

@@ -17,8 +17,8 @@ struct Pseudo_inverse {
   int rank = 0;
 };
 
-/// The pseudo-inverse of a symmetric matrix without negative eigenvalues, and its rank. What is below
-/// `least_share` of the largest eigenvalue counts as zero.
+/// The pseudo-inverse of a symmetric matrix without negative eigenvalues, and its rank. Eigenvalues below
+/// `least_share` of the largest one count as zero.
 /// \pre finite
 template <int N>
 Pseudo_inverse<N> pseudo_inverse(const Matrix<N>& moments);

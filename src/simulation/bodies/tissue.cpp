@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// Constraints of edge lengths and volumes, projected in turn, and points that follow.
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>
@@ -18,7 +19,7 @@ namespace {
 
 /// A move that is a smaller share of the environment's diagonal is left for later.
 constexpr double least_share_of_move = 0x1p-22;
-/// Points between free cells go to the mean of the moves around them, in so many sweeps.
+/// The number of sweeps in which points between free cells go to the mean of the moves around them.
 constexpr int follower_sweeps = 8;
 
 /// D! times the volume of a simplex, and how it grows with each of its corners.

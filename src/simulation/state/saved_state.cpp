@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The parts of each simulated thing in their order, for reading and writing alike.
 #include <cellwalk/body/saved_body.h>
 #include <cellwalk/internal/simulation/saved_contacts.h>
 #include <cellwalk/internal/simulation/saved_state.h>
@@ -132,7 +133,7 @@ void State_access<D>::write(Byte_writer& out, const World<D>& world) {
   for (std::size_t i = 0; i < world.bodies_.size(); ++i) out(world.body_counts(i));
 }
 
-/// What kind it is follows from the scene: all that its constructor finds is then replaced.
+/// Its kind follows from the scene: all that its constructor finds is then replaced.
 template <int D>
 Moving_body<D> State_access<D>::read_body(Byte_reader& in, const std::optional<std::size_t>& entry) const {
   Body<D> body = restore_body<D>(snapshot_, in.next<std::vector<std::byte>>());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The bodies of each part by their vertices, and the states that are handed over.
 #include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/simulation/saved_contacts.h>
 #include <cellwalk/internal/simulation/world_part.h>

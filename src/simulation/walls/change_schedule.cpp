@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The facets and cells of each change found by position, and stitches kept until they succeed.
 #include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/simulation/change_schedule.h>
@@ -197,7 +198,7 @@ void Change_schedule<D>::sew(const Snapshot<D>& snapshot, Reshaping<D>& reshapin
     outcome.result = {made.is_made, std::move(made.reason), std::move(made.held_by)};
     if (!made.is_made) continue;
     stitches_.erase(stitches_.begin() + static_cast<std::ptrdiff_t>(i));
-    // What was taken back from the point that is gone now gapes from the other one.
+    // A vertex that was parted from the point that is gone now gapes from the other one.
     for (Stitch& other : stitches_)
       if (other.onto == stitch.point) other.onto = stitch.onto;
   }
@@ -206,7 +207,7 @@ void Change_schedule<D>::sew(const Snapshot<D>& snapshot, Reshaping<D>& reshapin
   planned.suture.reset();
 }
 
-/// Keeps what is refused.
+/// Keeps refused changes.
 template <int D>
 void Change_schedule<D>::apply_once(const Snapshot<D>& snapshot, Reshaping<D>& reshaping, Planned& planned,
                                     std::vector<Change_outcome>& outcomes) const {

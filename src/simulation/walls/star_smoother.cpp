@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The qualities of the simplices at a point, and the best of several places for it.
 #include "star_smoother.h"
 
 #include <algorithm>

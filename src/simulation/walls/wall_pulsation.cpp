@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// The directions of points from smoothed normals, and their places at each phase.
 #include <cellwalk/internal/records/scene_shape.h>
 #include <cellwalk/simulation/wall_pulsation.h>
 
@@ -16,7 +17,7 @@
 namespace cellwalk {
 namespace {
 
-/// Toward fixed parts, the motion fades over so many amplitudes.
+/// Toward fixed parts, the motion fades over this number of amplitudes.
 constexpr double fading_amplitudes = 10;
 /// Each sweep over the points between walls takes each to the mean of its neighbours. Points lie few cells
 /// from a wall, so that more sweeps change little.
@@ -35,7 +36,8 @@ Vector<3> across(std::span<const Point<3>> loop) {
   return sum;
 }
 
-/// What is known of each point of an environment: how walls around it face, and its neighbours along edges.
+/// The surroundings of each point of an environment: the normals of walls around it, and its neighbours along
+/// edges.
 template <int D>
 struct Point_surroundings {
   std::vector<Vector<D>> normals;  ///< the sum of those of its walls, away from free space
@@ -91,7 +93,7 @@ Point_surroundings<D> surroundings(const Snapshot<D>& snapshot) {
   return result;
 }
 
-/// Normals of walls become the mean of their own and those beside them along walls, as units, so often.
+/// In each sweep, normals of walls become the mean of their own and those beside them along walls, as units.
 template <int D>
 void smooth_normals(Point_surroundings<D>& around, std::uint32_t sweeps) {
   const auto& pairs = around.along_walls;

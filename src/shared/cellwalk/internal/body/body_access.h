@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The one friend of bodies: what the layer reshape needs of them while the environment around them changes,
-// and their state, from which they are saved and restored.
+// The one friend of bodies: the access of the layer reshape while the environment around them changes, and
+// their state, from which they are saved and restored.
 #ifndef CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
 #define CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
 
@@ -36,7 +36,7 @@ class Body_access {
   /// particles were registered last, and the regions free of walls with their anchors.
   /// Cost: reading them.
   Box<D> reach() const;
-  /// Registers what is stale, and gives regions free of walls up.
+  /// Registers stale vertices and edges, and gives regions free of walls up.
   void leave_regions(Body_counts& counts);
   /// True if no wall pierces a face, and that is to stay so.
   bool keeps_faces() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What may prove moves of a body free before they are tested exactly, so that tests can ask for each alone.
-// Theory: docs/bodies.md, clearance and certified moves.
+// The certificates that may prove moves of a body free before they are tested exactly, for tests of each
+// alone. Theory: docs/bodies.md, clearance and certified moves.
 #ifndef CELLWALK_INTERNAL_BODY_CERTIFICATES_H
 #define CELLWALK_INTERNAL_BODY_CERTIFICATES_H
 
@@ -17,7 +17,7 @@ struct Body_certificates {
   bool star_regions = true;     ///< a pool of regions, each about a star
   bool clusters = true;         ///< walls near a region are found by clusters of cells, not cell by cell
   bool chains_in_place = true;  ///< chains of edges are confirmed where they stand
-  /// Bodies of so many vertices have regions about stars, and clusters.
+  /// Bodies of this number of vertices or more have regions about stars, and clusters.
   std::size_t least_vertices_of_parts = 33;
   /// Of these, those with fewer edges a vertex, as rods, have no regions at all: in place, their edges cost
   /// less than the searches.

@@ -21,7 +21,7 @@ struct Scene_materials {
 /// \param planar opaque and unlit
 Scene_materials add_materials(Drawing& drawing, bool planar);
 
-/// Sizes of what is drawn, as shares of the diagonal of the environment's box.
+/// Sizes in drawings, as shares of the diagonal of the environment's box.
 constexpr double particle_size = 0.0032, contact_size = 0.0036;
 /// Pieces of a tube with as many triangles as the arrow of a contact.
 constexpr std::size_t arrow_pieces = 3;

@@ -18,7 +18,7 @@ struct Round_shapes {
   std::size_t balls = 0, pieces = 0, ends = 0;
 };
 
-/// The triangles that they become with so many sides (Drawing::sides), about.
+/// About the number of triangles that they become with this number of sides (Drawing::sides).
 /// \param flat as discs and flat lines
 std::size_t triangles_of(const Round_shapes& shapes, int sides, bool flat);
 

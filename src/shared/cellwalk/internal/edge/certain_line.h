@@ -23,7 +23,7 @@ namespace cellwalk::detail {
 template <int D>
 struct Facet_corners {
   std::array<Float4, D> lanes;  ///< NaN where a corner lies outside of the frame
-  unsigned ignored;             ///< lanes that tell nothing, as a bit mask
+  unsigned ignored;             ///< lanes that decide nothing, as a bit mask
   bool continues;               ///< the next ones are of the same facet
 };
 
@@ -42,7 +42,7 @@ template <int D>
 void append_from_behind(std::span<const Facet_corners<D>> facets, std::vector<Facet_corners<D>>& corners);
 
 /// The signed distance of a point of the frame from the plane of a facet, within plane_error; 0 if the plane
-/// says nothing.
+/// is not certified.
 template <int D>
 float distance_from_plane(const Snapshot<D>& snapshot, Half_facet f, const Spread_point<D>& y) {
   return evaluate<D>(*snapshot.blocks(Cell{to_index(f) / 4}), y)[to_index(f) % 4];
@@ -117,7 +117,7 @@ class Certain_line {
  private:
   static constexpr unsigned all_lanes = 15;
   static constexpr float unit = 0x1p-24F, part = unit * Part::num / Part::den;
-  /// In the frame. What underflows in shorter lines may exceed the bound.
+  /// In the frame. In shorter lines, the error by underflow may exceed the bound.
   static constexpr float least_length = 0x1p-60F, most_length = 0x1p60F;
   static Float4 magnitude(Float4 x) { return std::bit_cast<Float4>(std::bit_cast<Int4>(x) & 0x7fffffff); }
   static Float4 next(Float4 x) { return __builtin_shufflevector(x, x, 1, 2, 3, 0); }

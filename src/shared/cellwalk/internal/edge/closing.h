@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What lies at facets that are to become walls: on which sides of them vertices and edges may be then.
-// Theory: docs/cutting.md.
+// Vertices and edges at facets that are to become walls: the sides on which they may be then. Theory:
+// docs/cutting.md.
 #ifndef CELLWALK_INTERNAL_EDGE_CLOSING_H
 #define CELLWALK_INTERNAL_EDGE_CLOSING_H
 

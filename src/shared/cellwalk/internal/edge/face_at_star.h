@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A face that the walls at a moving vertex touch: whether they may, and on what it rests then. Theory:
-// docs/moving.md, faces.
+// A face that the walls at a moving vertex touch: whether they may, and the walls on which it rests then.
+// Theory: docs/moving.md, faces.
 #ifndef CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
 #define CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a vertex takes along: faces that move in their plane, and parts that have the vertex alone in common.
-// Theory: docs/sweep.md, faces.
+// The parts of a body that a vertex takes along: faces that move in their plane, and parts that have the
+// vertex alone in common. Theory: docs/sweep.md, faces.
 #ifndef CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 #define CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A vertex of the environment that moves while particles and edges stand still: what its walls meet, and how
-// cells and chains go on. Theory: docs/moving.md.
+// A vertex of the environment that moves while particles and edges stand still: the particles and edges that
+// its walls meet, and their cells and chains afterwards. Theory: docs/moving.md.
 #ifndef CELLWALK_INTERNAL_EDGE_MOVING_STAR_H
 #define CELLWALK_INTERNAL_EDGE_MOVING_STAR_H
 
@@ -67,7 +67,7 @@ class Moving_star {
   /// True if a particle still lies in its cell: then it did so all the time, and met no wall.
   bool keeps_cell(const Particle<D>& p) const;
   /// True proves that an edge whose ends kept their cells is free and keeps its chain.
-  /// \param facets those of its chain that have the vertex
+  /// \param facets the facets of its chain that have the vertex
   bool keeps_facets(const Chain& facets, const Point<D>& p, const Point<D>& q) const;
   /// The same just after the vertex began to move.
   bool keeps_cell_at_start(const Particle<D>& p) const;
@@ -94,7 +94,7 @@ class Moving_star {
   std::uint32_t vertex_;
   Point<D> from_;
   std::vector<Cell> cells_;  ///< ascending
-  /// A hash table of them. Which facets have the vertex is found out when it is asked for.
+  /// A hash table of them. The facets that have the vertex are found when they are needed.
   struct Slot {
     Cell cell = Cell::none;
     std::uint32_t known = 0, moving = 0;  ///< a bit for each of the first facets

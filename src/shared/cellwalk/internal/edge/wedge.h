@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Faces that share an edge which moves: what comes between them. Theory: docs/sweep.md, faces.
+// Faces that share an edge which moves: the walls that come between them. Theory: docs/sweep.md, faces.
 #ifndef CELLWALK_INTERNAL_EDGE_WEDGE_H
 #define CELLWALK_INTERNAL_EDGE_WEDGE_H
 

@@ -42,13 +42,13 @@ class Boundary_index {
   /// The facets that meet a box with theirs, ascending.
   std::vector<Half_facet> meeting(std::span<const Point<D>> points, const Box<D>& box) const;
 
-  /// True proves that no boundary facet at a point meets another one, but in common corners and what they
-  /// span, on the whole straight way of the point to a target. Remembers what follow() needs.
+  /// True proves that no boundary facet at a point meets another one, but in the hull of common corners, on
+  /// the whole straight way of the point to a target. Stores the data that follow() needs.
   /// \pre the point is on the boundary
   /// Cost: a comparison while the point stays in its zone; else a few us.
   bool is_way_free(std::span<const Point<D>> points, std::uint32_t point, const Point<D>& target);
   /// A point of the boundary was moved.
-  /// Cost: nothing while it stays in its zone, little if is_way_free() was just asked; else a few us.
+  /// Cost: nothing while it stays in its zone, little if is_way_free() was just called; else a few us.
   void follow(std::span<const Point<D>> points, std::uint32_t point);
 
  private:
@@ -64,7 +64,7 @@ class Boundary_index {
   };
   using Corner = Zoned_corner<D>;
   using Corners = std::array<Corner, static_cast<std::size_t>(D)>;
-  /// What a way of a vertex was found to need.
+  /// The zone and the points that a way of a vertex needs.
   struct Way {
     std::uint32_t point = 0;
     Point<D> target{};                  ///< where it ends

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a cluster of cells knows: the boxes of its walls and passages. See cell_clusters.h.
+// A cluster of cells: the boxes of its walls and passages. See cell_clusters.h.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The replacement of some cells of an environment by others, in map, snapshot and indices alike. What lies in
-// the cells is left to the caller.
+// The replacement of some cells of an environment by others, in map, snapshot and indices alike. The
+// residents of the cells are left to the caller.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_PATCHER_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_CELL_PATCHER_H
 
@@ -27,7 +27,7 @@ class Cell_patcher {
 
   const Snapshot<D>& snapshot() const { return *environment_.snapshot_; }
 
-  /// Fetches into the cache what replace() reads of the map, while the caller does something else.
+  /// Fetches into the cache the parts of the map that replace() reads, while the caller does something else.
   void prefetch(std::span<const Cell> cells) const;
 
   /// Replaces cells by those of a soup, see Snapshot::replace_cells(), which gives them indices and names.

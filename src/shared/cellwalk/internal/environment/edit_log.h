@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What edits changed: which facets were opened or closed, which cells are new, and how a compaction renamed
-// them. What was registered before finds its sides of walls by it. Theory: docs/bodies.md, registration.
+// The changes by edits: the facets that were opened or closed, the cells that are new, and the names that a
+// compaction gave them. Bodies that were registered before find their sides of walls by it. Theory:
+// docs/bodies.md, registration.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_EDIT_LOG_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_EDIT_LOG_H
 
@@ -23,7 +24,7 @@ class Snapshot;
 
 namespace cellwalk::detail {
 
-/// What a compaction made of the names of cells and half-facets, by old name; `none` where there was none.
+/// The new names of cells and half-facets after a compaction, by old name; `none` where there was none.
 struct Renaming {
   std::vector<Cell> cells;
   std::vector<Half_facet> half_facets;
@@ -35,7 +36,7 @@ class Edits_since {
   /// True if a cell of this name was put in place since.
   bool is_new(Cell cell) const;
   /// The cells of today that a cell was split into, by its name of that epoch; itself if it was not split,
-  /// and none if it is not known. Names of what is gone may be among them.
+  /// and none if it is not known. Names of cells that are gone may be among them.
   /// \pre !are_renamed()
   std::vector<Cell> parts_of(Cell cell) const;
   /// True if a facet is passable that was a wall, or the other way round.
@@ -69,19 +70,19 @@ class Edits_since {
 template <int D>
 bool was_passable(const Snapshot<D>& snapshot, const Edits_since& edits, Half_facet facet);
 
-/// The last half a million changes of facets, and as many new cells, at least. Of compactions it knows the
+/// The last half a million changes of facets, and as many new cells, at least. Of compactions it contains the
 /// last one.
 class Edit_log {
  public:
   /// Makes room for some sides of facets that are noted next, which then takes no memory.
   void reserve_turned(std::size_t sides);
-  /// A facet, both sides of it, was opened or closed; the epoch is that of after the edit.
+  /// A facet, both sides of it, was opened or closed; the epoch is the one after the edit.
   void note_turned(std::uint64_t epoch, Half_facet one, Half_facet other);
   /// \param of the cell that they are parts of, or Cell::none
   void note_new(std::uint64_t epoch, std::span<const Cell> cells, Cell of);
   void note_renamed(std::uint64_t epoch, Renaming names);
 
-  /// What was edited after an epoch.
+  /// The edits after an epoch.
   /// Cost: linear in the number of these edits.
   Edits_since since(std::uint64_t epoch) const;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What an environment has chosen in the course of its edits and is not told by its arrays. A compiled copy
-// that follows it does exactly what the environment itself would have done: the same answers in the same
-// order, and the same counts.
+// The choices of an environment in the course of its edits that its arrays do not store. A compiled copy that
+// follows it does exactly what the environment itself would have done: the same answers in the same order,
+// and the same counts.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_ENVIRONMENT_HISTORY_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_ENVIRONMENT_HISTORY_H
 
@@ -40,8 +40,8 @@ struct Environment_history {
 template <int D>
 Environment_history history_of(const Environment<D>& environment);
 
-/// \pre the environment is a compiled copy of the one with that history, and nothing was asked of it yet; nor
-///      is it moved afterwards, as clusters of cells stay behind then
+/// \pre the environment is a compiled copy of the one with that history, and was not queried yet; nor is it
+///      moved afterwards, as clusters of cells stay behind then
 /// \throw Error(input) for a history that is not of this environment
 template <int D>
 void follow_history(Environment<D>& environment, const Environment_history& history);

@@ -15,10 +15,11 @@
 
 namespace cellwalk::detail {
 
-/// The points of a facet are distinct. They are not copied: loop_of(n) tells those of the facet entered as n.
+/// The points of a facet are distinct. They are not copied: loop_of(n) returns those of the facet entered as
+/// n.
 class Facet_table {
  public:
-  /// \param most so many facets are entered at most
+  /// \param most the largest number of facets
   explicit Facet_table(std::size_t most) : entries_(std::bit_ceil(2 * most + 2)) {}
 
   /// Enters a facet and returns its number. If one with the same points is there, that is returned instead.

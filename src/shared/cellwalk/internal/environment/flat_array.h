@@ -76,7 +76,7 @@ class Flat_array {
     data_ = own_.data();
     size_ = own_.size();
   }
-  /// Moves the array out of the memory of others, with room for so many values.
+  /// Moves the array out of the memory of others, with room for `size` values.
   void own(std::size_t size) {
     if (!owner_) return;
     std::vector<T> values;

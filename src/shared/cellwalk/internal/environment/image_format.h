@@ -49,7 +49,7 @@ struct Image_section {
 };
 static_assert(sizeof(Image_section) == 48 && std::is_trivially_copyable_v<Image_section>);
 
-/// What a snapshot has besides arrays, and what certifying it gave.
+/// The members of a snapshot besides its arrays, and the results of its certification.
 template <int D>
 struct Image_state {
   std::array<double, D> frame_centre{};

@@ -37,11 +37,12 @@ struct Zoned_move {
   Point<D> from{}, to{};
 };
 
-/// Facets at a vertex have at most so many corners, for all of them to be parted from another one at once.
+/// The largest number of corners of the facets at a vertex for which all of them are parted from another one
+/// at once.
 inline constexpr std::size_t most_corners = 12;
 
-/// A radius r, not negative, that parts two sets of corners: what they span has no more in common than what
-/// their common corners span, wherever the vertex is on its way or within r of its end, and each other
+/// A radius r, not negative, that parts two sets of corners: their hulls have no more in common than the hull
+/// of their common corners, wherever the vertex is on its way or within r of its end, and each other
 /// corner in its zone. So is each facet whose corners are in the first set. If none is found, -1. A larger
 /// radius than `enough` is not searched. Of the room between the centres of zones, each side takes at most
 /// half, so that the other one finds some.

@@ -40,7 +40,7 @@ class Star_index {
   /// Sets `cells` to all cells that have a point, part after part; solid ones too. The order depends on the
   /// numbering of cells. They are kept for the next time.
   /// Cost: at first that of a search through these cells, later that of a copy. Memory: 4 bytes for each
-  /// point, and for each cell of the stars asked for.
+  /// point, and for each cell of the stars requested.
   void find_cells(const Snapshot<D>& snapshot, std::uint32_t point, std::vector<Cell>& cells);
 
   /// Follows an edit that replaces cells by others that cover the same region.
@@ -61,7 +61,7 @@ class Star_index {
   std::vector<Cell> first_;          ///< of each point
   std::vector<Part> other_parts_;    ///< by point
   std::vector<std::uint32_t> kept_;  ///< of each point: where its cells begin in `cells_`, or none
-  /// Of points asked for: the index of the point, its cells, and Cell::none.
+  /// Of points requested: the index of the point, its cells, and Cell::none.
   std::vector<Cell> cells_;
   std::size_t outdated_ = 0;  ///< entries of `cells_`
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Where the tissue of a snapshot lies: its solid cells, and the free ones at membranes. Cells that follow one
-// another in the order of the snapshot form a run, and runs a group; each knows the box of its tissue. A cut
-// finds what is near its blade without a look at all cells.
+// another in the order of the snapshot form a run, and runs a group; each stores the box of its tissue. A cut
+// finds the cells near its blade without a look at all of them.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_TISSUE_BOXES_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_TISSUE_BOXES_H
 
@@ -22,7 +22,7 @@ class Snapshot;
 
 namespace cellwalk::detail {
 
-/// The boxes of a snapshot, each made when it is first asked for. A copy has none yet.
+/// The boxes of a snapshot, each made when it is first needed. A copy has none yet.
 /// Thread safety: const members may be called from any number of threads; one at a time searches.
 template <int D>
 class Tissue_boxes {

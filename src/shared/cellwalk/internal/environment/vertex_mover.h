@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Moves of vertices of an environment, one after the other, for a layer that knows what lies in the cells
+// Moves of vertices of an environment, one after the other, for a layer that keeps the residents of the cells
 // around them. Theory: docs/moving.md.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_VERTEX_MOVER_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_VERTEX_MOVER_H
@@ -12,7 +12,7 @@
 
 namespace cellwalk::detail {
 
-/// What forbids the move of a vertex by the shape of the environment alone.
+/// The reasons for which the shape of the environment alone forbids the move of a vertex.
 enum class Star_defect : std::uint8_t {
   none,
   cell,     ///< a cell would be flat or inverted

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facets that become walls or passable, and cells that become solid or free, for a layer that knows what lies
-// in them. Theory: docs/cutting.md.
+// Facets that become walls or passable, and cells that become solid or free, for a layer that keeps their
+// residents. Theory: docs/cutting.md.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_WALL_EDITOR_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_WALL_EDITOR_H
 

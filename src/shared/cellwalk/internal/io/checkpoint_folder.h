@@ -17,7 +17,7 @@ struct Checkpoint {
   std::uint64_t step = 0;
   std::vector<std::byte> state;
   std::filesystem::path file;
-  /// Newer ones, which are damaged: each with what is wrong.
+  /// Newer ones, which are damaged: each with its defect.
   std::vector<std::string> passed_over;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Files that are there after a loss of power: what has returned is on the device.
+// Files that survive a loss of power: once a function has returned, its data are on the device.
 #ifndef CELLWALK_INTERNAL_IO_DURABLE_H
 #define CELLWALK_INTERNAL_IO_DURABLE_H
 
@@ -30,11 +30,10 @@ void write_durably(const std::filesystem::path& destination,
 /// Atomic_file.
 void remove_abandoned(const std::filesystem::path& destination);
 
-/// A file that grows where it is, and may be taken up again: what follows the length that was kept is cut
-/// off.
+/// A file that grows where it is, and may be taken up again: all beyond the length that was kept is cut off.
 class Growing_file final : public Byte_sink {
  public:
-  /// \param length that is kept of what is there; 0 makes a new file
+  /// \param length of the part of the old file that is kept; 0 makes a new file
   /// \throw Error(other) if it cannot be written; Error(input) if it is missing, or shorter than that
   explicit Growing_file(std::filesystem::path path, std::uint64_t length = 0);
   ~Growing_file() override;

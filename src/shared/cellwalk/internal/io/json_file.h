@@ -18,7 +18,7 @@ namespace cellwalk::io {
 inline constexpr int deepest_nesting = 64;
 
 /// Parses JSON with its keys in their order.
-/// \throw Error(input) for nesting that is too deep; nlohmann::json::exception for what is no JSON
+/// \throw Error(input) for nesting that is too deep; nlohmann::json::exception for text that is no JSON
 nlohmann::ordered_json parse_ordered_json(const std::string& name, std::string_view text);
 
 /// Writes JSON, indented, keys in the order of insertion. Numbers read back the same; those that are not

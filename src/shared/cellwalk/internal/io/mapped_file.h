@@ -12,13 +12,13 @@
 
 namespace cellwalk::io {
 
-/// The bytes of a file. What is written there is seen by this process only, and never stored.
+/// The bytes of a file. Bytes written there are seen by this process only, and never stored.
 struct Mapped_file {
   std::span<std::byte> bytes;         ///< from the beginning of a page on
   std::shared_ptr<const void> owner;  ///< they last as long as it is held
 };
 
-/// Maps a file; what is none, such as a pipe, is read. The file must not be cut short while it is mapped:
+/// Maps a file; other sources, such as a pipe, are read. The file must not be cut short while it is mapped:
 /// replace it by another one of its name instead, as all our writers do.
 /// \throw Error(input) if it cannot be read
 Mapped_file map_file(const std::filesystem::path& path);

@@ -74,7 +74,7 @@ class Unfinished {
   int slot_ = -1;
 };
 
-/// Moves a file or directory to a name, and what has that name to the old one.
+/// Moves a file or directory to a name, and the one that has that name to the old name.
 class Replacement {
  public:
   /// Returns false and sets errno if the system refuses: to EEXIST if something is there that must stay.
@@ -94,8 +94,8 @@ namespace detail {
 bool exchange_in_steps(const std::filesystem::path& a, const std::filesystem::path& b) noexcept;
 
 /// Moves a directory to a name that nothing has, on a file system that cannot refuse names which are taken.
-/// What takes the name at the same moment stays, unless it is an empty directory. Returns false, and sets
-/// errno, if the system refuses.
+/// An entry that takes the name at the same moment stays, unless it is an empty directory. Returns false, and
+/// sets errno, if the system refuses.
 bool move_in_steps(const std::filesystem::path& from, const std::filesystem::path& to) noexcept;
 
 }  // namespace detail

@@ -20,12 +20,12 @@ namespace cellwalk::io {
 /// Writes a recording frame by frame; the file appears on commit() or not at all.
 class Recording_writer {
  public:
-  /// \pre indices of the scene are in range, and its box contains all moving points; what lies outside is
-  ///      taken to its side
+  /// \pre indices of the scene are in range, and its box contains all moving points; points outside are moved
+  ///      to its side
   /// \throw Error(other) if the file cannot be written
   Recording_writer(std::filesystem::path path, Recording_scene scene);
   /// \param file that gets the content, not compressed unless it does that
-  /// \param is_continued the file has what comes before the first frame already, and archive() is called next
+  /// \param is_continued the file has the head before the first frame already, and archive() is called next
   Recording_writer(std::unique_ptr<Byte_sink> file, Recording_scene scene, bool is_continued = false);
 
   /// Appends a frame.

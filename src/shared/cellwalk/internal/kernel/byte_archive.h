@@ -3,8 +3,8 @@
 // are saved and taken up again, and for messages among processes.
 //
 // A class has `template <class Archive> void archive(Archive& a) { a(first_, second_, ...); }`, or there is a
-// function visit_parts(a, value) in its namespace or in detail. Archive::is_reading tells the directions
-// apart.
+// function visit_parts(a, value) in its namespace or in detail. Archive::is_reading distinguishes the
+// directions.
 #ifndef CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 #define CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 
@@ -28,7 +28,8 @@
 
 namespace cellwalk::detail {
 
-/// True for what is copied as it lies in memory: numbers, and structs of counts, which have no padding.
+/// True for types that are copied as they lie in memory: numbers, and structs of counts, which have no
+/// padding.
 template <class T>
 struct Is_plain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T> || Count_set<T>> {};
 template <class T, std::size_t N>
@@ -132,8 +133,8 @@ class Byte_writer {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads what a Byte_writer wrote. All functions throw Error(input) where the bytes end before, or cannot be
-/// those of such a value.
+/// Reads the bytes that a Byte_writer wrote. All functions throw Error(input) where the bytes end before, or
+/// cannot be those of such a value.
 class Byte_reader {
  public:
   static constexpr bool is_reading = true;
@@ -181,7 +182,7 @@ class Byte_reader {
     const auto bytes = take_bytes(count * sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(values), bytes.data(), bytes.size());
   }
-  /// A number of items, of which each takes so many bytes at least.
+  /// A number of items, of which each takes at least this number of bytes.
   std::size_t take_count(std::size_t least) {
     std::uint64_t wide = 0;
     take_plain(&wide, 1);

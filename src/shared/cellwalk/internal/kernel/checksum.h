@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Checksums, which tell damaged bytes from those that were written.
+// Checksums, by which damaged bytes are recognised.
 #ifndef CELLWALK_INTERNAL_KERNEL_CHECKSUM_H
 #define CELLWALK_INTERNAL_KERNEL_CHECKSUM_H
 

@@ -35,11 +35,11 @@ template <int D>
 Fraction fraction_of(const Crossing<D>& crossing);
 
 /// \pre a and b lie strictly on different sides
-/// Cost: 0.2 us, more if only exact arithmetic tells which double is the greatest that is not later.
+/// Cost: 0.2 us, more if only exact arithmetic finds the greatest double that is not later.
 template <int D>
 Exact_time to_time(const Crossing<D>& crossing);
 
-/// The time rounded as that of to_time() is, in [0,1]; 0 and 1 only if exact.
+/// The time, rounded like the result of to_time(), in [0,1]; 0 and 1 only if exact.
 /// \pre a and b do not lie strictly on the same side
 template <int D>
 double crossing_time(const Crossing<D>& crossing);
@@ -57,13 +57,13 @@ struct Timed_point {
 template <int D>
 Timed_point<D> timed_point(const Crossing<D>& crossing);
 
-/// The fraction of an Exact_time: a number, or what it is computed from once it is needed.
+/// The fraction of an Exact_time: a number, or the crossing from which it is computed once it is needed.
 struct Exact_fraction {
   std::variant<Fraction, Crossing<2>, Crossing<3>> source;
 };
 
-/// Coordinate by coordinate the greatest doubles that are not above, and the least that are not below, those
-/// of a point of a motion.
+/// For each coordinate of a point of a motion, the greatest double that is not above it, and the least that
+/// is not below.
 template <int D>
 struct Point_bounds {
   Point<D> below, above;

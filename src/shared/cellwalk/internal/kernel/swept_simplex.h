@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The simplex that a wall sweeps while one of its corners moves, and how it meets what stands still. Theory:
-// docs/moving.md. Includes CGAL; users link CGAL::CGAL.
+// The simplex that a wall sweeps while one of its corners moves, and its meetings with sets that stand still.
+// Theory: docs/moving.md. Includes CGAL; users link CGAL::CGAL.
 #ifndef CELLWALK_INTERNAL_KERNEL_SWEPT_SIMPLEX_H
 #define CELLWALK_INTERNAL_KERNEL_SWEPT_SIMPLEX_H
 
@@ -56,7 +56,7 @@ class Swept_simplex {
   /// The corners of K: where the moving corner starts, where it ends, then the others.
   const std::array<Point<D>, dimension + 1>& corners() const { return corners_; }
 
-  /// Exact in every position. What meets a flat K touches it.
+  /// Exact in every position. A set that meets a flat K touches it.
   /// \pre there is at least one point; polygons are convex, and only in 3D
   /// Cost: a comparison of boxes; up to some 20 signs near K; exact numbers, some 10 us, for touches and for
   /// polygons that no plane of theirs or of K parts from it.
@@ -67,15 +67,15 @@ class Swept_simplex {
   /// \pre meet(feature) is Encounter::hit
   Swept_hit first_hit(std::span<const Point<D>> feature) const;
 
-  /// True if the wall meets the set only where it starts, and off its still corners and what they span: it
-  /// leaves it at once.
+  /// True if the wall meets the set only where it starts, and off the hull of its still corners: it leaves
+  /// the set at once.
   /// \pre meet(feature) is Encounter::touch
   /// Cost: exact numbers.
   bool leaves(std::span<const Point<D>> feature) const;
 
-  /// True if the wall meets the set after it has begun to move, elsewhere than at its still corners and what
-  /// they span. A wall that moves off a set that it touched does not.
-  /// Cost: some 20 signs; exact numbers if no plane of a facet of K, nor that of the set, tells.
+  /// True if the wall meets the set after it has begun to move, elsewhere than in the hull of its still
+  /// corners. A wall that moves off a set that it touched does not.
+  /// Cost: some 20 signs; exact numbers if no plane of a facet of K, nor that of the set, decides.
   bool reaches(std::span<const Point<D>> feature, Predicate_counts& counts) const;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Decisions contradict each other only in environments that are not certified, such as compiled ones that
-// were forged: what relies on their proofs ends there, instead of going on for ever or reading elsewhere.
+// were forged: code that relies on their proofs ends there, instead of going on for ever or reading
+// elsewhere.
 #ifndef CELLWALK_INTERNAL_KERNEL_UNCERTIFIED_H
 #define CELLWALK_INTERNAL_KERNEL_UNCERTIFIED_H
 

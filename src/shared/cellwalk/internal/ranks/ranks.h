@@ -27,8 +27,8 @@ struct Block {
 
 /// The ranks of a run, seen from one of them. The first writes all output; the others hand it their part.
 ///
-/// What fails on a rank is thrown where the first gathers: it is what the lowest rank met, and with blocks in
-/// the order of ranks that is what a single process would have met first.
+/// An error on a rank is thrown where the first gathers: it is that of the lowest rank, and with blocks in
+/// the order of ranks that is the error that a single process would have met first.
 class Ranks {
  public:
   /// Alone.
@@ -54,7 +54,7 @@ class Ranks {
 
   /// On the first rank: the bytes of every rank, in order. On others, which go on at once unless the first is
   /// several calls behind: nothing.
-  /// \throw Error on the first rank: what fail() was called with on the lowest of the others
+  /// \throw Error on the first rank: the error with which fail() was called on the lowest of the others
   std::vector<std::string> gather(std::string bytes);
   /// The same, where the first rank uses the bytes of one after the other, its own first.
   void gather(std::string bytes, const std::function<void(std::string)>& use);
@@ -91,8 +91,8 @@ std::string mpi_version();
 /// True if a word names the standard input as a file.
 bool names_standard_input(std::string_view word);
 
-/// Replaces the standard input of every rank by a copy of what the first reads from it, which mpirun gives to
-/// the first only. Files that are named /dev/stdin can be read by all then.
+/// Replaces the standard input of every rank by a copy of the input of the first, which mpirun gives to the
+/// first only. Files that are named /dev/stdin can be read by all then.
 /// \throw Error(input) if it cannot be read
 void share_standard_input(Ranks& ranks);
 

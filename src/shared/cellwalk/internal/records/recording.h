@@ -67,14 +67,14 @@ struct Recording_scene {
   }
 };
 
-/// What became of loops of points since the previous frame. Loops are numbered in the order in which they
+/// The changes of loops of points since the previous frame. Loops are numbered in the order in which they
 /// first appear, those of the scene before all others; they keep their numbers while they are gone.
 struct Loops_change {
   std::vector<std::uint32_t> toggled;  ///< that vanished or came back; ascending
   std::vector<std::vector<std::uint32_t>> added;
 };
 
-/// What became of the walls since the previous frame.
+/// The changes of the walls since the previous frame.
 struct Walls_change {
   std::vector<Point<3>> points;  ///< new ones, numbered on; they stay, whether they are used or not
   Loops_change walls, floor, lines;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Distances from parts of a scene, and what lies in them.
+// Distances from parts of a scene, and the points in them.
 #ifndef CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 #define CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Contacts as bytes, see byte_archive.h. Their exact times become what is reported of them.
+// Contacts as bytes, see byte_archive.h. Their exact times become the times that are reported.
 #ifndef CELLWALK_INTERNAL_SIMULATION_SAVED_CONTACTS_H
 #define CELLWALK_INTERNAL_SIMULATION_SAVED_CONTACTS_H
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The state of a simulation as bytes: a world, its walls and the changes to come, which go on from there as
-// if they had never stopped. What a scene says is not in it, and where the environment is kept is not its
-// concern.
+// if they had never stopped. It contains neither the scene nor the environment.
 #ifndef CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
 #define CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
 
@@ -18,7 +17,7 @@ namespace cellwalk::detail {
 /// \throw Error(usage) if there was one
 template <int D>
 void save(Byte_writer& out, const World<D>& world);
-/// What remains to be changed.
+/// The changes that remain.
 template <int D>
 void save(Byte_writer& out, const Change_schedule<D>& schedule);
 template <int D>
@@ -28,8 +27,8 @@ void save(Byte_writer& out, const Elastic_foundation<D>& foundation);
 template <int D>
 void save(Byte_writer& out, const Tissue<D>& tissue);
 
-/// Saves simulated things, and makes them again from what was saved. The snapshot is that of the environment
-/// as it was then, or of a compiled copy; the scene is the same.
+/// Saves simulated things, and makes them again from the bytes. The snapshot is that of the environment as it
+/// was then, or of a compiled copy; the scene is the same.
 /// \throw Error(input) for bytes that are damaged or do not fit these
 template <int D>
 class State_access {

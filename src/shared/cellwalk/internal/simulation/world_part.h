@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Worlds of one scene in several processes, each of which advances a part of what moves in it.
+// Worlds of one scene in several processes, each of which advances a part of the particles and bodies.
 #ifndef CELLWALK_INTERNAL_SIMULATION_WORLD_PART_H
 #define CELLWALK_INTERNAL_SIMULATION_WORLD_PART_H
 
@@ -11,7 +11,7 @@
 
 namespace cellwalk {
 
-/// What other parts need to know of a part.
+/// The data of a part that other parts need.
 struct State_request {
   bool contacts = false;  ///< of the last step
   bool states = false;    ///< where everything is, in which cells, and counts
@@ -19,12 +19,12 @@ struct State_request {
 
 /// The part of a world that is advanced here: contiguous blocks of particles and of bodies, in the order of
 /// parts; the catheter is of the first part. All parts make the same steps, and nothing that moves meets
-/// anything else that moves, so together they do what one world does. Refers to the world, which must outlive
-/// it, and of which nothing was advanced yet.
+/// anything else that moves, so together they have the results of one world. Refers to the world, which must
+/// outlive it, and of which nothing was advanced yet.
 template <int D>
 class World_part {
  public:
-  /// Leaves what is not in part `number` of `count` to other worlds of the same scene.
+  /// Leaves all that is not in part `number` of `count` to other worlds of the same scene.
   /// \pre number < count; nobody moves or changes walls
   World_part(World<D>& world, std::size_t number, std::size_t count);
 

@@ -24,7 +24,7 @@ struct Side_taken {
   std::uint16_t sides;  ///< as many
   std::uint16_t taken;  ///< in the order of preference
 
-  /// What follows is the same for motions that arrive in linked cells.
+  /// The rest is the same for motions that arrive in linked cells.
   bool is_at_place_of(const Side_taken& other) const {
     return u == other.u && v == other.v && least == other.least;
   }
@@ -32,8 +32,9 @@ struct Side_taken {
 /// Those of a motion, in order.
 using Sides_taken = boost::container::small_vector<Side_taken, 4>;
 
-/// So many combinations of sides are tried for a motion that takes edges along; then the latest contact found
-/// counts. Edges mostly leave one side of each wall, so that there is one combination for each wall passed.
+/// The number of combinations of sides that are tried for a motion that takes edges along; then the latest
+/// contact found counts. Edges mostly leave one side of each wall, so that there is one combination for each
+/// wall passed.
 constexpr int most_side_tries = 256;
 
 /// The next combination of sides: another one at the last choice that leaves one. False if none does.
@@ -72,7 +73,7 @@ Walk_result<D> move_on_sides(const Snapshot<D>& snapshot, Particle<D>& particle,
 
 /// The walk on the sides on which it gets furthest, the first of them in the order of preference.
 /// \param walk_once (options, choices): a walk on given sides
-/// \param options with what a walk on preferred sides has appended already
+/// \param options with the output that a walk on preferred sides has appended already
 /// Cost: that of a walk for each side of each place.
 template <int D, class Walk_once>
 Walk_result<D> furthest_walk(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
