@@ -54,7 +54,7 @@ std::string as_text() {
 }
 
 nlohmann::ordered_json as_json() {
-  nlohmann::ordered_json all;
+  nlohmann::ordered_json all = nlohmann::ordered_json::object();
   for (const Part& part : parts())
     all[std::string(part.name)] = {
         {"present", part.present},

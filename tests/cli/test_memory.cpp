@@ -92,7 +92,9 @@ class Little_memory : public Program {
       const bool once = i % 3 == 0;
       const Outcome outcome = run_with_little(command, at, once);
       ++runs_;
-      SCOPED_TRACE(command[0] + ", allocation " + at + (once ? ", once" : " and all later ones"));
+      SCOPED_TRACE(command[0] + " " + command[1] + ", allocation " + at +
+                   (once ? ", once" : " and all later ones") + ", exit code " +
+                   std::to_string(outcome.exit_code));
       if (outcome.exit_code == 0) {
         if (outcome.out.find("no picture") == std::string::npos) {  // a run goes without one
           EXPECT_EQ(outcome.out, whole.out);

@@ -128,7 +128,7 @@ std::uint64_t Changes_table<D>::made() const {
 
 template <int D>
 nlohmann::ordered_json Changes_table<D>::to_json() const {
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (std::size_t k = 0; k < change_words.size(); ++k) json[change_words[k].done] = made_[k];
   if (cuts_.edges != 0)
     json["cuts"] = {{"edges", cuts_.edges},   {"split", cuts_.split},   {"snapped", cuts_.snapped},

@@ -16,7 +16,7 @@ namespace cellwalk::cli {
 /// The counts of a set by name, without those of its inner sets.
 template <Count_set Set>
 nlohmann::ordered_json to_json(const Set& counts) {
-  nlohmann::ordered_json result;
+  nlohmann::ordered_json result = nlohmann::ordered_json::object();
   for (const auto& [name, count] : named_counts(counts)) result[std::string(name)] = count;
   return result;
 }

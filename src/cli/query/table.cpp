@@ -73,7 +73,7 @@ struct Answered {
 
 /// Completes all files and prints the number of answers of each status.
 void report(const Query_options& options, Query_files& files, const Answered& answered) {
-  nlohmann::ordered_json by_status;
+  nlohmann::ordered_json by_status = nlohmann::ordered_json::object();
   std::string line;
   std::uint64_t motions = 0;
   for (std::size_t s = 0; s < answered.tally.size(); ++s) {

@@ -41,7 +41,8 @@ ordered_json report(const Run_input<D>& input, const Run_parts<D>& parts) {
   ordered_json result{{"dimension", D}, {"steps", input.steps()}, {"time_step", input.scene.time_step}};
   result["environment"] = cli::to_json(input.certificate, D);
   result["particles"] = {{"free", world.particles().size()}};
-  ordered_json kinds;
+  // An object from the start: a null that becomes one is broken if its memory fails.
+  ordered_json kinds = ordered_json::object();
   for (std::size_t k = 0; k < 3; ++k) kinds[contact_kind_names[k]] = files.contacts()[k];
   result["contacts"] = kinds;
   if (!world.bodies().empty())
