@@ -12,6 +12,7 @@
 #include <iostream>
 
 #include "oracle/parity.h"
+#include "walk/oracle_trial.h"
 #include "walk/walk_judge.h"
 
 namespace cellwalk::oracle {
