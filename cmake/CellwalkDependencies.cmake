@@ -7,7 +7,7 @@ endif()
 find_package(Threads REQUIRED)
 find_package(CGAL 5.5 REQUIRED)             # LGPL part: Linear_cell_complex, kernels
 find_package(Boost 1.74 REQUIRED)           # BSL: R-tree, exact integers
-find_package(Eigen3 3.4 REQUIRED NO_MODULE) # MPL2: linear algebra of simulation
+find_package(Eigen3 3.4 REQUIRED NO_MODULE) # MPL2: linear algebra of simulation, which is not installed
 find_package(TBB REQUIRED)                  # Apache 2: parallel compilation of snapshots
 find_package(fmt 9 REQUIRED)                # MIT: text output
 find_package(ZLIB REQUIRED)                 # zlib: input compressed with gzip

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Install rules and the package that find_package(cellwalk COMPONENTS ...) reads.
-#   core     LGPL  kernel to simulation                 target cellwalk::core
+#   core     LGPL  kernel to reshape                    target cellwalk::core
 #   io       LGPL  readers and writers, pictures        targets cellwalk::io, cellwalk::drawing; its module for VTK is the component readers
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
 #   loading  LGPL  environments from files (GPL where it is built with meshing)  target cellwalk::loading
@@ -41,15 +41,15 @@ set(installed_internals
   environment/cell_clusters.h
   environment/edit_log.h
   environment/flat_array.h
+  environment/gluing.h
   environment/held_snapshot.h
   environment/planes.h
   environment/tissue_boxes.h
-  io/output.h
   kernel/box.h
   kernel/check_finite.h
+  kernel/counts.h
   kernel/predicates.h
   kernel/uncertified.h
-  simulation/saved_parts.h
   walk/certified_exit.h
   walk/in_boundary.h
   walk/link_search.h

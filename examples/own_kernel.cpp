@@ -2,11 +2,11 @@
 // A number policy of one's own: where all coordinates are small integers, signs can be had in 64-bit
 // integers, exactly. The walk is compiled for it here, and gives the answers of the policy that is shipped.
 #include <cellwalk/cellwalk.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/walk_impl.h>
 
 #include <cstdint>
 #include <cstdio>
+#include <random>
 
 //! [kernel]
 /// Exact for integer coordinates of at most 2^19: differences are at most 2^20, a product of three of them
@@ -42,10 +42,10 @@ int main() {
   const Locator<3> locator(snapshot);
 
   // Integer points, most of them on facets, edges and vertices; some targets lie outside.
-  Random random(7);
+  std::mt19937_64 random(7);
   const auto lattice_point = [&random](std::uint64_t range) {
     Point<3> p;
-    for (double& x : p) x = 4 * static_cast<double>(random.below(range));
+    for (double& x : p) x = 4 * static_cast<double>(random() % range);
     return p;
   };
   //! [walk]

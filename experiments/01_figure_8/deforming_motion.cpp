@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The motion of the paper's figure 8: the scene of `cellwalk run` without a scene, by the rule of traces.
-#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/generators/body_of_shape.h>
+#include <cellwalk/internal/io/scene.h>
 #include <cellwalk/internal/simulation/target_recorder.h>
-#include <cellwalk/io/scene.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <algorithm>
 #include <stdexcept>

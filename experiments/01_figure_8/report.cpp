@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "report.h"
 
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/json_file.h>
-#include <cellwalk/io/atomic_file.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_RIGID_FIT_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_RIGID_FIT_H
 
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

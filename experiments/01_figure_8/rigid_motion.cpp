@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Rigid cubes in flight, a second motion for figure 8: no deformation, fewer contacts, slow turns.
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/simulation/target_recorder.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include "trace_maker.h"
 
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/simulation/trace_environment.h>
-#include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <utility>

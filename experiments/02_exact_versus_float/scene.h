@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_SCENE_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_SCENE_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <optional>
 #include <utility>

@@ -5,7 +5,7 @@
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 
 #include <cellwalk/generators/lattice_map.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>

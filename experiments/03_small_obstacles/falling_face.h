@@ -4,7 +4,7 @@
 #define CELLWALK_EXPERIMENTS_SMALL_OBSTACLES_FALLING_FACE_H
 
 #include <cellwalk/edge/sweep.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 
 #include <cellwalk/generators/room.h>
 #include <cellwalk/generators/vessel.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>

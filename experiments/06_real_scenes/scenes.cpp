@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scenes.h"
 
+#include <cellwalk/internal/io/scene.h>
 #include <cellwalk/internal/io/trace_file.h>
+#include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/io/mesh_file.h>
-#include <cellwalk/io/scene.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/loading/generators.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

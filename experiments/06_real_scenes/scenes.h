@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_REAL_SCENES_SCENES_H
 #define CELLWALK_EXPERIMENTS_REAL_SCENES_SCENES_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>

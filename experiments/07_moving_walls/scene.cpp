@@ -2,8 +2,8 @@
 #include "scene.h"
 
 #include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ void Scene::add_catheter(const Locator<3>& locator, const Tube& trunk) {
 
 void Scene::add_soft_bodies(const Locator<3>& locator, const std::vector<Tube>& tubes) {
   Random random(experiments::part_seed(1, "soft bodies"));
-  const Body_soup<3> sphere = generate_body(Icosphere_shape{.radius = soft_radius, .subdivisions = 1});
+  const Body_soup<3> sphere = icosphere_body(soft_radius, 1);
   while (bodies_.size() < 1 + soft_bodies) {
     const Tube& tube = tubes[bodies_.size() % tubes.size()];
     const Vector<3> axis = tube.points.back() - tube.points.front();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The tests of walls and edges against each other, in positions of which most are degenerate.
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <gtest/gtest.h>
 

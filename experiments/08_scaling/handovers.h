@@ -5,7 +5,7 @@
 #define CELLWALK_EXPERIMENTS_SCALING_HANDOVERS_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scenes.h"
 
-#include <cellwalk/generators/body_shapes.h>
-#include <cellwalk/io/scene.h>
-#include <cellwalk/loading/generators.h>
+#include <cellwalk/internal/generators/body_of_shape.h>
+#include <cellwalk/internal/io/scene.h>
+#include <cellwalk/internal/loading/generators.h>
 
 #include <filesystem>
 #include <utility>

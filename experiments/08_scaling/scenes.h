@@ -4,7 +4,7 @@
 #define CELLWALK_EXPERIMENTS_SCALING_SCENES_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstdint>
 #include <string>

@@ -2,8 +2,8 @@
 #include "flights.h"
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/loading/generators.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/loading/generators.h>
 
 #include <variant>
 

@@ -4,7 +4,7 @@
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <cmath>

@@ -2,8 +2,8 @@
 #ifndef CELLWALK_EXPERIMENTS_ABLATION_RANDOM_DIRECTION_H
 #define CELLWALK_EXPERIMENTS_ABLATION_RANDOM_DIRECTION_H
 
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/kernel/random.h>
 
 #include <cmath>
 

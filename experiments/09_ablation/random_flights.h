@@ -4,7 +4,7 @@
 #define CELLWALK_EXPERIMENTS_ABLATION_RANDOM_FLIGHTS_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/particle.h>
 
 #include <cstddef>

@@ -3,13 +3,13 @@
 // without each of them: hexahedra of side 0.3 bounce in a grid of hexahedral unit cells, 10 % of them solid,
 // by a fiftieth of a cell a step. Times include the response to contacts. Beside it, what the searches for a
 // contact cost where there is one.
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/transform.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/rigid_body.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/rigid_body.h>
 
 #include <benchmark/benchmark.h>
 
@@ -37,7 +37,7 @@ const Snapshot<3>& scene() {
 
 std::vector<Rigid_body<3>> throw_bodies() {
   static const Locator<3> locator(scene());
-  const Body_soup<3> shape = generate_body(Hexahedron_shape{0.3, false});
+  const Body_soup<3> shape = hexahedron_body(0.3, false);
   Random random(1);
   std::vector<Rigid_body<3>> result;
   while (result.size() < bodies) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // From a soup of tetrahedra to a certified environment: time, and bytes a tetrahedron, of each stage.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/walk/locate.h>
 

@@ -8,12 +8,12 @@
 //
 // Faces are swept in the same grid, far from all walls, and in one in which some facets are walls: there,
 // times are of sweep_face alone, of moves that are free.
-#include <cellwalk/edge/face.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/edge/three_segments.h>
 #include <cellwalk/internal/edge/triangle.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <benchmark/benchmark.h>

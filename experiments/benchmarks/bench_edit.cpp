@@ -3,7 +3,7 @@
 // and closed.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <benchmark/benchmark.h>
 

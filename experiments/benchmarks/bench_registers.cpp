@@ -3,8 +3,8 @@
 // its targets, and their copy. As the library does it, with the bounds of the targets in registers of two
 // numbers and then a copy, beside registers of four (AVX2) and eight (AVX-512), which compare and copy what
 // they have loaded. All give the same bits.
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/kernel/random.h>
 
 #include <benchmark/benchmark.h>
 

@@ -4,7 +4,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <benchmark/benchmark.h>

@@ -6,7 +6,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/vessel.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <benchmark/benchmark.h>

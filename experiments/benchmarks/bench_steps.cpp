@@ -4,10 +4,10 @@
 // included.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/vessel.h>
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/scene.h>
+#include <cellwalk/internal/simulation/wall_pulsation.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/loading/environment_file.h>
-#include <cellwalk/simulation/wall_pulsation.h>
-#include <cellwalk/simulation/world.h>
 
 #include <benchmark/benchmark.h>
 

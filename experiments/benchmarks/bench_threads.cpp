@@ -2,12 +2,12 @@
 // What a second thread brings to many bodies: the scene of data/hexahedra.json, without files: 225
 // hexahedra bounce in a grid of 10^3 hexahedral cells, a tenth of them solid. The last argument is the
 // number of threads; time is that of the clock.
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/simulation/body_replay.h>
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -50,7 +50,7 @@ Scene<3> scene(bool deforms) {
 void steps(benchmark::State& state, bool deforms) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(state.range(0)));
-  World<3> world(grid(), scene(deforms), {generate_body(Hexahedron_shape{0.3, false})});
+  World<3> world(grid(), scene(deforms), {hexahedron_body(0.3, false)});
   for (int i = 0; i < 20; ++i) world.step();
   for (auto _ : state) world.step();
   state.counters["moves"] = benchmark::Counter(static_cast<double>(world.body_counts().moves) *

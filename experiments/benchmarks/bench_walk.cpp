@@ -10,8 +10,8 @@
 //
 // "crossing" subtracts nothing: it is the time of a whole move divided by the number of facets crossed (or
 // tetrahedra visited).
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

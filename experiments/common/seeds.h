@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EXPERIMENTS_COMMON_SEEDS_H
 #define CELLWALK_EXPERIMENTS_COMMON_SEEDS_H
 
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <cstdint>
 #include <string_view>

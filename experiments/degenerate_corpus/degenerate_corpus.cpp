@@ -3,7 +3,7 @@
 //
 //   degenerate_corpus --out DIR
 //   degenerate_corpus --in DIR --answers FILE.csv [--touch pass|stop]
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/io/ovm.h>
 
 #include <CLI/CLI.hpp>

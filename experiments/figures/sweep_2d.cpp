@@ -3,9 +3,9 @@
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/drawing/drawing.h>
 #include <cellwalk/internal/drawing/figure.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/internal/kernel/fraction.h>
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/walk/locate.h>
 
 #include <fmt/core.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A thin spike through the inside of a swept triangle: its three sides are free, the sweep is not.
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/json_file.h>
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/walk/locate.h>
 
 #include "figures.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // All that most programs need: environments from files and generators, particles, edges, bodies, queries,
-// walls that move, pictures. docs/start.md begins here. It does not include CGAL. import_environment() is in
-// the library cellwalk::loading, draw() in cellwalk::drawing, all else in cellwalk::core. Not included: the
-// map (environment/map.h), the walk for your own kernels (walk/walk_impl.h), scenes (simulation/), and
-// readers, writers and meshers with all their options (io/, loading/, meshing/).
+// walls that move, pictures. docs/start.md begins with this header, which includes nothing of CGAL.
+// import_environment() is in the library cellwalk::loading, draw() in cellwalk::drawing, all else in
+// cellwalk::core. Not included: the combinatorial map (environment/map.h), the walk for number types of your
+// own (walk/walk_impl.h), compiled environments and parts by place or name (environment/compiled.h,
+// selection.h), and readers, writers and meshers with all their options (io/, loading/, meshing/).
 #ifndef CELLWALK_CELLWALK_H
 #define CELLWALK_CELLWALK_H
 
@@ -21,7 +22,7 @@
 #include <cellwalk/query/edge_cells.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>

@@ -2,11 +2,11 @@
 // Bodies of either dimension for Python: the checks of their arrays, and their steps under a lock.
 #include "any_body.h"
 
-#include <cellwalk/body/saved_body.h>
+#include <cellwalk/body/body.h>
 #include <cellwalk/drawing/draw.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/io/body_file.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <fmt/core.h>
 #include <pybind11/stl.h>

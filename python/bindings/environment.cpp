@@ -2,8 +2,9 @@
 // Environments: from files, recipes and arrays; their content; queries of points and edges without known
 // cells.
 #include <cellwalk/environment/compiled.h>
-#include <cellwalk/loading/generators.h>
-#include <cellwalk/loading/report.h>
+#include <cellwalk/internal/loading/environment_writer.h>
+#include <cellwalk/internal/loading/generators.h>
+#include <cellwalk/internal/loading/report.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>
 

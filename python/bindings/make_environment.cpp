@@ -2,8 +2,8 @@
 // Environments from arrays, files and generators, built without the interpreter lock.
 #include "make_environment.h"
 
-#include <cellwalk/loading/generators.h>
-#include <cellwalk/loading/report.h>
+#include <cellwalk/internal/loading/generators.h>
+#include <cellwalk/internal/loading/report.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,10 @@
 // The extension module cellwalk._cellwalk; users import python/cellwalk/__init__.py.
 #include "module.h"
 
+#include <cellwalk/internal/io/build_features.h>
+#include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/loading/mesher.h>
 #include <cellwalk/query/answer.h>
 
 #include <pybind11/stl.h>

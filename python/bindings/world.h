@@ -4,7 +4,8 @@
 #ifndef CELLWALK_PYTHON_WORLD_H
 #define CELLWALK_PYTHON_WORLD_H
 
-#include <cellwalk/environment/groups.h>
+#include <cellwalk/environment/selection.h>
+#include <cellwalk/internal/environment/groups.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/walk/locate.h>

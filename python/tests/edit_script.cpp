@@ -4,7 +4,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/environment_file.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>
 

@@ -5,9 +5,9 @@
 #define CELLWALK_BODY_BODY_STATE_H
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/edge/face.h>
 #include <cellwalk/internal/body/certificates.h>
 #include <cellwalk/internal/edge/certain_line.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The bytes of a body, with tests that restored names, sizes and invariants are sound.
-#include <cellwalk/body/saved_body.h>
+#include <cellwalk/body/body.h>
 #include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
 #include <cellwalk/internal/kernel/checksum.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk generate KIND ... -o ENV.ovm: environments made without a file.
 #include <cellwalk/internal/io/numbers.h>
-#include <cellwalk/loading/generators.h>
+#include <cellwalk/internal/loading/environment_writer.h>
+#include <cellwalk/internal/loading/generators.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk import MESH -o ENV.ovm: converts any mesh to a certified environment, and reports every change.
+#include <cellwalk/internal/loading/environment_writer.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

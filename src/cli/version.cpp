@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The option --version: the program, its optional parts and their versions.
+#include <cellwalk/internal/io/build_features.h>
 #include <cellwalk/internal/io/json_file.h>
+#include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/loading/mesher.h>
 
 #include <CGAL/version.h>
 #include <fmt/core.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies and contacts in a picture.
 #include <cellwalk/internal/drawing/bodies.h>
+#include <cellwalk/internal/io/vtu.h>
 #include <cellwalk/internal/kernel/box.h>
-#include <cellwalk/io/vtu.h>
 
 #include <algorithm>
 

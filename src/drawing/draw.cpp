@@ -2,7 +2,7 @@
 // A picture of bodies among walls.
 #include <cellwalk/drawing/draw.h>
 #include <cellwalk/internal/drawing/bodies.h>
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 
 namespace cellwalk {
 

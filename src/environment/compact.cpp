@@ -3,6 +3,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/environment/build_map.h>
 #include <cellwalk/internal/environment/star_index.h>
 
 #include <utility>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Whether the cells of an image have their corners and neighbours as those of a snapshot have them: each
 // facet between two cells is one loop, seen from both.
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Whether the arrays of an image refer to each other as those of a snapshot do, so that nothing reads beyond
 // them.
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

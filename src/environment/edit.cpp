@@ -4,6 +4,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/kernel/check_finite.h>

@@ -3,7 +3,9 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/environment/build_map.h>
 #include <cellwalk/internal/environment/flatten.h>
+#include <cellwalk/internal/environment/split.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/kernel/error.h>
 

@@ -4,6 +4,7 @@
 #define CELLWALK_ENVIRONMENT_ENVIRONMENT_IMAGE_H
 
 #include <cellwalk/environment/compiled.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/environment/environment_history.h>
 #include <cellwalk/internal/environment/image_format.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The members of groups found by their points after edits, and written back into a soup.
-#include <cellwalk/environment/groups.h>
+#include <cellwalk/environment/selection.h>
+#include <cellwalk/internal/environment/groups.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #define CELLWALK_ENVIRONMENT_PREPARE_SOUP_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstddef>

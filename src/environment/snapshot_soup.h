@@ -3,8 +3,8 @@
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_SOUP_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_SOUP_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The signs of the cells at a moving vertex, their planes and boundary zones, committed or restored.
 #include <cellwalk/internal/environment/boundary_index.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/environment/vertex_mover.h>
 #include <cellwalk/internal/kernel/swept_simplex.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The checks of facets and cells, and changes of wall marks that take no memory once they begin.
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/environment/wall_editor.h>
 
 #include <utility>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_GENERATORS_APART_H
 #define CELLWALK_GENERATORS_APART_H
 
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Boxes and the hexahedron, which is the box of one cell along each axis.
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <fmt/format.h>
 
@@ -17,16 +17,15 @@ namespace {
 using detail::nearest;
 using detail::Quad;
 
-void check(const Box_shape& shape) {
+void check(const Vector<3>& size, const std::array<std::uint32_t, 3>& cells) {
   double all = 1, inner = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!(shape.size[k] > 0) || !std::isfinite(shape.size[k]))
-      throw Error(Error_code::usage,
-                  fmt::format("box: its size must be positive numbers, not {}", shape.size[k]));
-    if (shape.cells[k] == 0)
+    if (!(size[k] > 0) || !std::isfinite(size[k]))
+      throw Error(Error_code::usage, fmt::format("box: its size must be positive numbers, not {}", size[k]));
+    if (cells[k] == 0)
       throw Error(Error_code::usage, "box: no cells along an axis; give at least 1 along each");
-    all *= shape.cells[k] + 1.0;
-    inner *= shape.cells[k] - 1.0;
+    all *= cells[k] + 1.0;
+    inner *= cells[k] - 1.0;
   }
   if (all - inner > most_generated_vertices)
     throw Error(Error_code::usage, fmt::format("box: {} vertices; give fewer cells, for at most {}",
@@ -36,11 +35,11 @@ void check(const Box_shape& shape) {
 /// The points of the lattice on the surface, numbered.
 class Lattice {
  public:
-  explicit Lattice(const Box_shape& shape) : cells_(shape.cells) {
+  Lattice(const Vector<3>& size, const std::array<std::uint32_t, 3>& cells) : cells_(cells) {
     std::array<std::vector<double>, 3> coordinates;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::uint32_t i = 0; i <= cells_[k]; ++i)
-        coordinates[k].push_back(nearest(Quad(shape.size[k]) * (2.0 * i - cells_[k]) / (2.0 * cells_[k])));
+        coordinates[k].push_back(nearest(Quad(size[k]) * (2.0 * i - cells_[k]) / (2.0 * cells_[k])));
     std::array<std::uint32_t, 3> i{};
     for (i[2] = 0; i[2] <= cells_[2]; ++i[2])
       for (i[1] = 0; i[1] <= cells_[1]; ++i[1]) {
@@ -67,39 +66,39 @@ class Lattice {
 
 }  // namespace
 
-Body_soup<3> generate_body(const Box_shape& shape) {
-  check(shape);
-  Lattice lattice(shape);
+Body_soup<3> box_body(const Vector<3>& size, const std::array<std::uint32_t, 3>& cells, bool faces) {
+  check(size, cells);
+  Lattice lattice(size, cells);
   Body_parts<3> parts;
   // A rectangle at (i, j) of a side, counterclockwise seen from outside.
   const auto add = [&](std::size_t axis, bool high, std::uint32_t i, std::uint32_t j) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const auto corner = [&](std::uint32_t a, std::uint32_t b) {
       std::array<std::uint32_t, 3> at{};
-      at[axis] = high ? shape.cells[axis] : 0;
+      at[axis] = high ? cells[axis] : 0;
       at[high ? u : v] = (high ? i : j) + a;
       at[high ? v : u] = (high ? j : i) + b;
       return lattice(at);
     };
     const std::array<std::uint32_t, 4> loop{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
-    if (shape.faces)
+    if (faces)
       parts.polygons.emplace_back(loop.begin(), loop.end());
     else
       for (std::size_t k = 0; k < 4; ++k) parts.segments.push_back({loop[k], loop[(k + 1) % 4]});
   };
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const bool high : {false, true})
-      for (std::uint32_t j = 0; j < shape.cells[(axis + 2) % 3]; ++j)
-        for (std::uint32_t i = 0; i < shape.cells[(axis + 1) % 3]; ++i) add(axis, high, i, j);
+      for (std::uint32_t j = 0; j < cells[(axis + 2) % 3]; ++j)
+        for (std::uint32_t i = 0; i < cells[(axis + 1) % 3]; ++i) add(axis, high, i, j);
   parts.points = std::move(lattice.points);
   return make_body<3>(std::move(parts)).body;
 }
 
-Body_soup<3> generate_body(const Hexahedron_shape& shape) {
-  if (!(shape.side > 0) || !std::isfinite(shape.side))
+Body_soup<3> hexahedron_body(double side, bool faces) {
+  if (!(side > 0) || !std::isfinite(side))
     throw Error(Error_code::usage,
-                fmt::format("hexahedron: the side must be a positive number, not {}", shape.side));
-  return generate_body(Box_shape{{shape.side, shape.side, shape.side}, {1, 1, 1}, shape.faces});
+                fmt::format("hexahedron: the side must be a positive number, not {}", side));
+  return box_body({side, side, side}, {1, 1, 1}, faces);
 }
 
 }  // namespace cellwalk

@@ -2,7 +2,7 @@
 // The icosahedron, subdivided and projected onto a sphere.
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <fmt/format.h>
 
@@ -39,13 +39,13 @@ Triangles subdivided(const Triangles& triangles, std::vector<Point<3>>& points) 
 
 }  // namespace
 
-Body_soup<3> generate_body(const Icosphere_shape& shape) {
-  if (!(shape.radius > 0) || !std::isfinite(shape.radius))
+Body_soup<3> icosphere_body(double radius, std::uint32_t subdivisions) {
+  if (!(radius > 0) || !std::isfinite(radius))
     throw Error(Error_code::usage,
-                fmt::format("icosphere: the radius must be a positive number, not {}", shape.radius));
-  if (shape.subdivisions > most_subdivisions)
-    throw Error(Error_code::usage, fmt::format("icosphere: {} subdivisions; give at most {}",
-                                               shape.subdivisions, most_subdivisions));
+                fmt::format("icosphere: the radius must be a positive number, not {}", radius));
+  if (subdivisions > most_subdivisions)
+    throw Error(Error_code::usage,
+                fmt::format("icosphere: {} subdivisions; give at most {}", subdivisions, most_subdivisions));
   constexpr double g = std::numbers::phi;
   Body_parts<3> parts;
   parts.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
@@ -54,8 +54,8 @@ Body_soup<3> generate_body(const Icosphere_shape& shape) {
   Triangles triangles{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  for (std::uint32_t i = 0; i < shape.subdivisions; ++i) triangles = subdivided(triangles, parts.points);
-  for (Point<3>& p : parts.points) p = shape.radius * p;
+  for (std::uint32_t i = 0; i < subdivisions; ++i) triangles = subdivided(triangles, parts.points);
+  for (Point<3>& p : parts.points) p = radius * p;
   parts.polygons = std::move(triangles);
   return make_body<3>(std::move(parts)).body;
 }

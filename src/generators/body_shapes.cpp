@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Polygons, polylines, boxes and ropes, with checks of their sizes.
 #include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/generators/body_of_shape.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <fmt/format.h>
 
@@ -51,94 +52,109 @@ Body_soup<D> open_polyline(std::vector<Point<D>> points) {
   return make_body<D>(std::move(parts)).body;
 }
 
+template <class... Cases>
+struct Overloads : Cases... {
+  using Cases::operator()...;
+};
+
 }  // namespace
 
-Body_soup<3> generate_body(const Tetrahedron_shape& shape) {
-  check_positive("tetrahedron", "side", shape.side);
-  const double h =
-      nearest(Quad(shape.side) / (2 * sqrt(Quad(2))));  // four corners of a cube, no two on an edge
+Body_soup<3> tetrahedron_body(double side) {
+  check_positive("tetrahedron", "side", side);
+  const double h = nearest(Quad(side) / (2 * sqrt(Quad(2))));  // four corners of a cube, no two on an edge
   return make_body<3>({{{h, h, h}, {h, -h, -h}, {-h, h, -h}, {-h, -h, h}},
                        {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}},
                        {}})
       .body;
 }
 
-Body_soup<2> generate_body(const Triangle_shape& shape) {
-  check_positive("triangle", "side", shape.side);
-  const double half = shape.side / 2, inner = nearest(Quad(shape.side) / (2 * sqrt(Quad(3))));
-  const double outer = nearest(Quad(shape.side) / sqrt(Quad(3)));
+Body_soup<2> triangle_body(double side) {
+  check_positive("triangle", "side", side);
+  const double half = side / 2, inner = nearest(Quad(side) / (2 * sqrt(Quad(3))));
+  const double outer = nearest(Quad(side) / sqrt(Quad(3)));
   return closed_polygon<2>({{-half, -inner}, {half, -inner}, {0, outer}});
 }
 
-Body_soup<2> generate_body(const Quad_shape& shape) {
-  check_positive("quad", "side", shape.side);
-  const double h = shape.side / 2;
+Body_soup<2> quad_body(double side) {
+  check_positive("quad", "side", side);
+  const double h = side / 2;
   return closed_polygon<2>({{-h, -h}, {h, -h}, {h, h}, {-h, h}});
 }
 
-Body_soup<2> generate_body(const Polygon_shape& shape) {
+Body_soup<2> polygon_body(std::uint32_t corners, double radius) {
   constexpr std::uint32_t fewest = 3;
-  check_count("polygon", "corners", shape.corners, fewest);
-  check_positive("polygon", "radius", shape.radius);
+  check_count("polygon", "corners", corners, fewest);
+  check_positive("polygon", "radius", radius);
   std::vector<Point<2>> points;
-  for (std::uint32_t i = 0; i < shape.corners; ++i) {
-    const auto [c, s] = detail::sine_cosine(Quad(360) * i / shape.corners);
-    points.push_back({nearest(shape.radius * c), nearest(shape.radius * s)});
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const auto [c, s] = detail::sine_cosine(Quad(360) * i / corners);
+    points.push_back({nearest(radius * c), nearest(radius * s)});
   }
   return closed_polygon<2>(std::move(points));
 }
 
 template <int D>
-Body_soup<D> generate_body(const Catheter_shape<D>& shape) {
+Body_soup<D> catheter_body(double length, std::uint32_t vertices) {
   constexpr std::uint32_t fewest = 2;
-  check_count("catheter", "vertices", shape.vertices, fewest);
-  check_positive("catheter", "length", shape.length);
-  std::vector<Point<D>> points(shape.vertices);
-  for (std::uint32_t i = 0; i < shape.vertices; ++i)
-    points[i][0] = spaced(shape.length, i, shape.vertices - 1);
+  check_count("catheter", "vertices", vertices, fewest);
+  check_positive("catheter", "length", length);
+  std::vector<Point<D>> points(vertices);
+  for (std::uint32_t i = 0; i < vertices; ++i) points[i][0] = spaced(length, i, vertices - 1);
   return open_polyline<D>(std::move(points));
 }
 
 template <int D>
-Body_soup<D> generate_body(const Polyline_shape<D>& shape) {
-  if (shape.points.empty()) throw Error(Error_code::usage, "polyline: no points; give at least one");
-  for (std::size_t i = 0; i < shape.points.size(); ++i)
-    if (!is_finite(shape.points[i]))
+Body_soup<D> polyline_body(const std::vector<Point<D>>& points) {
+  if (points.empty()) throw Error(Error_code::usage, "polyline: no points; give at least one");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!is_finite(points[i]))
       throw Error(Error_code::usage,
                   fmt::format("polyline: point {} has a coordinate that is not finite", i));
-  return open_polyline<D>(shape.points);
+  return open_polyline<D>(points);
 }
 
 template <int D>
 Body_soup<D> rope(const std::vector<Point<D>>& path, double spacing) {
   check_positive("rope", "spacing", spacing);
-  Polyline_shape<D> shape{path};
-  (void)generate_body(shape);  // refuses a path that is none
-  shape.points.assign(1, path.front());
+  (void)polyline_body<D>(path);  // refuses a path that is none
+  std::vector<Point<D>> points{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Vector<D> way = path[i] - path[i - 1];
     const double pieces = std::max(1.0, std::ceil(length(way) / spacing));
-    if (!(static_cast<double>(shape.points.size()) + pieces <= most_generated_vertices))
+    if (!(static_cast<double>(points.size()) + pieces <= most_generated_vertices))
       throw Error(Error_code::usage,
                   fmt::format("rope: more than {} vertices; give a larger spacing", most_generated_vertices));
-    for (double k = 1; k < pieces; ++k) shape.points.push_back(path[i - 1] + (k / pieces) * way);
-    shape.points.push_back(path[i]);
+    for (double k = 1; k < pieces; ++k) points.push_back(path[i - 1] + (k / pieces) * way);
+    points.push_back(path[i]);
   }
-  return generate_body(shape);
+  return polyline_body<D>(points);
 }
 
 Body_soup<2> generate_body(const Body_shape<2>& shape) {
-  return std::visit([](const auto& s) { return generate_body(s); }, shape);
+  return std::visit(
+      Overloads{[](const Triangle_shape& s) { return triangle_body(s.side); },
+                [](const Quad_shape& s) { return quad_body(s.side); },
+                [](const Polygon_shape& s) { return polygon_body(s.corners, s.radius); },
+                [](const Catheter_shape<2>& s) { return catheter_body<2>(s.length, s.vertices); },
+                [](const Polyline_shape<2>& s) { return polyline_body<2>(s.points); }},
+      shape);
 }
 
 Body_soup<3> generate_body(const Body_shape<3>& shape) {
-  return std::visit([](const auto& s) { return generate_body(s); }, shape);
+  return std::visit(
+      Overloads{[](const Hexahedron_shape& s) { return hexahedron_body(s.side, s.faces); },
+                [](const Box_shape& s) { return box_body(s.size, s.cells, s.faces); },
+                [](const Tetrahedron_shape& s) { return tetrahedron_body(s.side); },
+                [](const Icosphere_shape& s) { return icosphere_body(s.radius, s.subdivisions); },
+                [](const Catheter_shape<3>& s) { return catheter_body<3>(s.length, s.vertices); },
+                [](const Polyline_shape<3>& s) { return polyline_body<3>(s.points); }},
+      shape);
 }
 
-template Body_soup<2> generate_body(const Catheter_shape<2>&);
-template Body_soup<3> generate_body(const Catheter_shape<3>&);
-template Body_soup<2> generate_body(const Polyline_shape<2>&);
-template Body_soup<3> generate_body(const Polyline_shape<3>&);
+template Body_soup<2> catheter_body(double, std::uint32_t);
+template Body_soup<3> catheter_body(double, std::uint32_t);
+template Body_soup<2> polyline_body(const std::vector<Point<2>>&);
+template Body_soup<3> polyline_body(const std::vector<Point<3>>&);
 template Body_soup<2> rope(const std::vector<Point<2>>&, double);
 template Body_soup<3> rope(const std::vector<Point<3>>&, double);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Points with jitter, solid cells apart, and cubes cut into simplices.
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/generators/placement.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <cmath>

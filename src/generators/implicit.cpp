@@ -2,7 +2,7 @@
 // The lattice is the body-centred cubic one: the points of integer coordinates that are all even (corners) or
 // all odd (centres). Each tetrahedron has two centres that are neighbours along an axis and two corners that
 // are neighbours along another: twelve around a centre for its three higher neighbours.
-#include <cellwalk/generators/implicit.h>
+#include <cellwalk/internal/generators/implicit.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The test that coordinates of a lattice are computed without rounding, or keep their planes flat.
 #include <cellwalk/generators/lattice_map.h>
+#include <cellwalk/internal/generators/placement.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
 

@@ -2,7 +2,7 @@
 // Boxes that grow at random, slits between them, and the points of their cells.
 #include "lattice_partition.h"
 
-#include <cellwalk/generators/slits.h>
+#include <cellwalk/internal/generators/slits.h>
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #define CELLWALK_GENERATORS_LATTICE_PARTITION_H
 
 #include <cellwalk/internal/generators/lattice_world.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The facets of boxes of cubes, and their cells: whole, cut into prisms, simplices or pyramids.
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/generators/placement.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>

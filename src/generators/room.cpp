@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walls with doors on a grid of squares, and random star-shaped obstacles.
 #include <cellwalk/generators/room.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <array>

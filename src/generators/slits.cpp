@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The corners of cells joined around each vertex, and vertices doubled where slits part them.
-#include <cellwalk/generators/slits.h>
+#include <cellwalk/internal/generators/slits.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
 

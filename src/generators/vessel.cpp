@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Only + - * / and sqrt are used here: they are rounded in the same way everywhere, unlike other functions of
 // the standard library.
-#include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/generators/implicit.h>
 #include <cellwalk/internal/kernel/box.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,8 @@
 // The mapping of compiled files, and the compaction of an environment before it is written.
 #include "compiled_file.h"
 
+#include <cellwalk/internal/io/ovm_writer.h>
+#include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/environment_file.h>
 
@@ -91,7 +93,19 @@ void write_environment(io::Atomic_file& file, Environment<D>& environment, const
   });
 }
 
+template <int D>
+void write_environment(const std::filesystem::path& path, Environment<D>& environment,
+                       const Certificate& certificate, const Groups<D>& groups) {
+  io::Atomic_file file(path);
+  write_environment<D>(file, environment, certificate, groups);
+  file.commit();
+}
+
 template void write_environment(io::Atomic_file&, Environment<2>&, const Certificate&, Groups<2>);
 template void write_environment(io::Atomic_file&, Environment<3>&, const Certificate&, Groups<3>);
+template void write_environment(const std::filesystem::path&, Environment<2>&, const Certificate&,
+                                const Groups<2>&);
+template void write_environment(const std::filesystem::path&, Environment<3>&, const Certificate&,
+                                const Groups<3>&);
 
 }  // namespace cellwalk

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The choice between a compiled file, cells that are built, and a surface that is meshed first.
+#include <cellwalk/internal/environment/groups.h>
 #include <cellwalk/loading/environment_file.h>
 
 #include <fmt/core.h>

@@ -5,8 +5,8 @@
 #include <cellwalk/generators/room.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/loading/generators.h>
 
 #include <fmt/core.h>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Any mesh becomes a certified environment, and every change is reported.
-#include <cellwalk/kernel/of_dimension.h>
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/environment/groups.h>
+#include <cellwalk/internal/loading/mesher.h>
+#include <cellwalk/internal/loading/report.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/loading/import.h>
-#include <cellwalk/loading/report.h>
 
 #include <fmt/core.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The meshing component of a full build: TetGen, Mesh_3 and the triangulation of domains.
+#include <cellwalk/internal/loading/mesher.h>
+#include <cellwalk/internal/loading/report.h>
+#include <cellwalk/internal/meshing/mesh3.h>
+#include <cellwalk/internal/meshing/tissue.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/loading/mesher.h>
-#include <cellwalk/loading/report.h>
-#include <cellwalk/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
-#include <cellwalk/meshing/tissue.h>
 #include <cellwalk/meshing/triangulate.h>
 
 #include <fmt/core.h>

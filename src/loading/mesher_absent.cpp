@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The meshing component of a build without it: errors that describe how to get it.
+#include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/loading/mesher.h>
 
 namespace cellwalk {
 namespace {

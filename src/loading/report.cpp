@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The sentences and keys for certificates, changes of the input and facing walls.
-#include <cellwalk/loading/report.h>
+#include <cellwalk/internal/loading/report.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

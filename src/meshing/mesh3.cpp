@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bounds given to the helper of Mesh_3, scaled to a size without overflow, and its tetrahedra.
+#include <cellwalk/internal/meshing/mesh3.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/meshing/mesh3.h>
 
 #include <fmt/format.h>
 

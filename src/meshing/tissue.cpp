@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The hull of the cells, a box around it, and the tetrahedra between them as solid cells.
+#include <cellwalk/internal/meshing/tissue.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/meshing/tissue.h>
 
 #include <fmt/format.h>
 

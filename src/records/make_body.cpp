@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Polygons cut into triangles, their edges without repetition, and unused points dropped.
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The order of a step, free particles and then bodies in parallel, and the edits of the environment.
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/simulation/world.h>
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

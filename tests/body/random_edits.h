@@ -4,8 +4,8 @@
 #define CELLWALK_TESTS_BODY_RANDOM_EDITS_H
 
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <functional>
 #include <optional>

@@ -3,9 +3,9 @@
 #ifndef CELLWALK_TESTS_BODY_ROOMS_H
 #define CELLWALK_TESTS_BODY_ROOMS_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 // thread that first asks for them, and read by all.
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

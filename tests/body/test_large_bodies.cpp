@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Regions of bodies of many vertices, with any history: nothing shows them.
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/selection.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

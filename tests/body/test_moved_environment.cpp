@@ -2,7 +2,6 @@
 // Environments that are moved with all that lies in them: bodies, particles and locators go on as in one that
 // stays where it is.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/saved_body.h>
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
@@ -10,7 +9,6 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/of_dimension.h>
 
 #include <gtest/gtest.h>
 
@@ -57,8 +55,7 @@ struct Owning_world {
     Locator<3> locator(environment.snapshot());
     Body_placement<3> placement;
     placement.position = {0.5, 0.5, 0.5};
-    Body<3> body(environment.snapshot(), locator,
-                 transformed(generate_body(Hexahedron_shape{0.25, true}), placement));
+    Body<3> body(environment.snapshot(), locator, transformed(hexahedron_body(0.25, true), placement));
     Particle<3> particle = locator.particle_at({0.5, 0.5, 0.5}).value();
     return {std::move(environment), std::move(locator), std::move(body), particle};
   }

@@ -2,7 +2,6 @@
 // Calls that are refused change nothing: targets that are not finite, too few or too many of them, vertices
 // that are not there. A twin that was not called goes on with the same bytes.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/saved_body.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
@@ -77,9 +76,9 @@ class RefusedCalls : public ::testing::Test {
   }
   Body<D> box(double side = 0.375) const {
     if constexpr (D == 2)
-      return body_of(generate_body(Quad_shape{side}));
+      return body_of(quad_body(side));
     else
-      return body_of(generate_body(Hexahedron_shape{side, true}));
+      return body_of(hexahedron_body(side, true));
   }
   /// Where it starts; in a region free of walls; at a wall.
   static void bring_to(int state, Body<D>& body, const Body_options& options) {
@@ -158,7 +157,7 @@ TYPED_TEST(RefusedCallsOf, AnyOfManyTargetsThatAreNotFinite) {
     for (const double bad : not_finite_numbers)
       for (const std::uint32_t v : {0u, 1u, count / 2, count - 1}) {
         if (v >= count) continue;
-        Body<D> body = this->body_of(generate_body(Catheter_shape<D>{0.75, std::max(2u, count)}));
+        Body<D> body = this->body_of(catheter_body<D>(0.75, std::max(2u, count)));
         auto targets = shifted_targets<D>(body, this->along(0.015625));
         targets[v][v % D] = bad;
         Body_options options;

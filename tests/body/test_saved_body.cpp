@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies that are saved and restored at any time, in the worlds of the oracle, do and count what those do
 // that were not; bytes that are damaged or of another environment are refused.
-#include <cellwalk/body/saved_body.h>
+#include <cellwalk/body/body.h>
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/environment/environment_history.h>

@@ -2,8 +2,8 @@
 // Everything times a power of two: every answer is the same times that, to the bit.
 #include <cellwalk/body/body.h>
 #include <cellwalk/body/verified_stop.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -3,12 +3,12 @@
 // lattices with membranes, in planes of walls and past their rims, judged by all combinations of sides.
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Memory that is used up at any moment, once or for good: a command succeeds with the same bytes, or says so
 // in a line and leaves nothing behind.
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <cstdlib>
 #include <map>

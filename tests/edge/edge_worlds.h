@@ -5,7 +5,7 @@
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/swept_triangle.h>
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_TESTS_EDGE_FACE_BODY_H
 #define CELLWALK_TESTS_EDGE_FACE_BODY_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/edge/triangle.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_EDGE_FACE_JUDGE_H
 #define CELLWALK_TESTS_EDGE_FACE_JUDGE_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/kernel/fraction.h>
 
 #include <gtest/gtest.h>

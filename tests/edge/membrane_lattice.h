@@ -3,8 +3,8 @@
 #ifndef CELLWALK_TESTS_EDGE_MEMBRANE_LATTICE_H
 #define CELLWALK_TESTS_EDGE_MEMBRANE_LATTICE_H
 
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <array>

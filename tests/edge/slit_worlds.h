@@ -5,7 +5,7 @@
 #define CELLWALK_TESTS_EDGE_SLIT_WORLDS_H
 
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstddef>

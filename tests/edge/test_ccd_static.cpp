@@ -7,7 +7,7 @@
 // tells them apart: none starts on its obstacle, which is asserted.
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/kernel/fraction.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Any triangle can be made a membrane of a certified environment, however thin, small or far out it is.
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

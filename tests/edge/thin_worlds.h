@@ -4,8 +4,8 @@
 #define CELLWALK_TESTS_EDGE_THIN_WORLDS_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/generators/slits.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/generators/slits.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/policies.h>
 

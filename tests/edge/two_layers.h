@@ -3,8 +3,8 @@
 #ifndef CELLWALK_TESTS_EDGE_TWO_LAYERS_H
 #define CELLWALK_TESTS_EDGE_TWO_LAYERS_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include "oracle/squares_and_cubes.h"
 

@@ -4,6 +4,7 @@
 #define CELLWALK_TESTS_ENVIRONMENT_CELL_SAMPLES_H
 
 #include <cellwalk/environment/certify.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <boost/multiprecision/cpp_int.hpp>

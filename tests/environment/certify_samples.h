@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_ENVIRONMENT_CERTIFY_SAMPLES_H
 
 #include <cellwalk/environment/certify.h>
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #define CELLWALK_TESTS_ENVIRONMENT_MAP_CHECKS_H
 
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/build_map.h>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #define CELLWALK_TESTS_ENVIRONMENT_SNAPSHOT_CHECKS_H
 
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

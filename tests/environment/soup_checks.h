@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_ENVIRONMENT_SOUP_CHECKS_H
 #define CELLWALK_TESTS_ENVIRONMENT_SOUP_CHECKS_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/records/cell_soup.h>
 

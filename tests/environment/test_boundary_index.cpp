@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The index of boundary facets: what it proves free, against every pair of facets in exact numbers.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/environment/box_grid.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/kernel/swept_simplex.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

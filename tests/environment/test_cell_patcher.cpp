@@ -5,8 +5,8 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
 #include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

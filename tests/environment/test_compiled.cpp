@@ -5,8 +5,8 @@
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

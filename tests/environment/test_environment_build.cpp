@@ -2,6 +2,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/environment/map.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/build_map.h>
 #include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/kernel/error.h>
 

@@ -4,8 +4,8 @@
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

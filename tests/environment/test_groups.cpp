@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Named groups: through building, which splits cells and facets, and through edits.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/groups.h>
+#include <cellwalk/environment/selection.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/cell_patcher.h>
+#include <cellwalk/internal/environment/groups.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Moves of single vertices for layers above: their checks, and certificates withdrawn and restored.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/environment/vertex_mover.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Readers of meshes. What they accept must keep what its record promises, since all that follows relies on
 // it.
+#include <cellwalk/internal/io/parse_surface.h>
+#include <cellwalk/internal/io/planar_file.h>
 #include <cellwalk/io/ovm.h>
-#include <cellwalk/io/planar_file.h>
 #include <cellwalk/io/surface_file.h>
 
 #include <algorithm>

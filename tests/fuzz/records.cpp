@@ -4,8 +4,8 @@
 #include <cellwalk/internal/io/gzip.h>
 #include <cellwalk/internal/io/query_file.h>
 #include <cellwalk/internal/io/repro_file.h>
+#include <cellwalk/internal/io/scene.h>
 #include <cellwalk/internal/io/trace_file.h>
-#include <cellwalk/io/scene.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Compiled environments with changed entries and checksums that fit are refused, or used in all ways: a use
 // may end in an Error, but it ends. Under the address sanitizer, nothing is read that is not there.
 #include <cellwalk/environment/compiled.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <gtest/gtest.h>
 

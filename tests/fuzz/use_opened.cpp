@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "fuzz/use_opened.h"
 
-#include <cellwalk/body/saved_body.h>
+#include <cellwalk/body/body.h>
 #include <cellwalk/query/edge_cells.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/generators/body_of_shape.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ std::string refusal(const Shape& shape) {
 }
 
 TEST(GenerateBody, HexahedronIsThatOfThePaper) {
-  const auto body = sound(generate_body(Hexahedron_shape{0.3}));
+  const auto body = sound(hexahedron_body(0.3));
   ASSERT_EQ(body.points.size(), 8u);
   Edges expected;
   for (std::uint32_t v = 0; v < 8; ++v) {
@@ -90,8 +90,7 @@ TEST(GenerateBody, HexahedronIsThatOfThePaper) {
 }
 
 TEST(GenerateBody, HexahedronHasFacesOnRequest) {
-  const auto wire = generate_body(Hexahedron_shape{2}),
-             body = sound(generate_body(Hexahedron_shape{2, true}));
+  const auto wire = hexahedron_body(2), body = sound(hexahedron_body(2, true));
   EXPECT_EQ(body.points, wire.points);
   EXPECT_EQ(body.faces.size(), 12u);
   EXPECT_EQ(body.edges.size(), 18u);
@@ -103,8 +102,8 @@ TEST(GenerateBody, HexahedronHasFacesOnRequest) {
 TEST(GenerateBody, BoxIsTheSurfaceOfALattice) {
   const Vector<3> size{3, 2, 1};
   const std::array<std::uint32_t, 3> cells{6, 4, 1};
-  const auto wire = sound(generate_body(Box_shape{size, cells, false}));
-  const auto body = sound(generate_body(Box_shape{size, cells, true}));
+  const auto wire = sound(box_body(size, cells, false));
+  const auto body = sound(box_body(size, cells, true));
   EXPECT_EQ(body.points.size(), 70u);  // 7 * 5 * 2: none inside
   EXPECT_EQ(body.points, wire.points);
   EXPECT_EQ(body.points.front(), (Point<3>{-1.5, -1, -0.5}));
@@ -115,14 +114,14 @@ TEST(GenerateBody, BoxIsTheSurfaceOfALattice) {
   EXPECT_TRUE(is_closed(body));
   EXPECT_EQ(volume(body), 6);
   expect_centred(body);
-  const auto cube = sound(generate_body(Box_shape{{1, 1, 1}, {3, 3, 3}, true}));
+  const auto cube = sound(box_body({1, 1, 1}, {3, 3, 3}, true));
   EXPECT_EQ(cube.points.size(), 64u - 8);
   EXPECT_TRUE(is_closed(cube));
-  EXPECT_EQ(generate_body(Box_shape{}).edges, generate_body(Hexahedron_shape{}).edges);
+  EXPECT_EQ(box_body({1, 1, 1}).edges, hexahedron_body(1).edges);
 }
 
 TEST(GenerateBody, TetrahedronIsRegular) {
-  const auto body = sound(generate_body(Tetrahedron_shape{3}));
+  const auto body = sound(tetrahedron_body(3));
   EXPECT_EQ(body.edges.size(), 6u);
   EXPECT_EQ(body.faces.size(), 4u);
   expect_edge_lengths(body, 3);
@@ -135,7 +134,7 @@ TEST(GenerateBody, IcosphereApproachesTheSphere) {
   double last = 0;
   for (std::uint32_t n = 0; n <= 4; ++n) {
     SCOPED_TRACE(n);
-    const auto body = sound(generate_body(Icosphere_shape{2, n}));
+    const auto body = sound(icosphere_body(2, n));
     const std::size_t fours = std::size_t{1} << (2 * n);
     EXPECT_EQ(body.points.size(), 10 * fours + 2);
     EXPECT_EQ(body.edges.size(), 30 * fours);
@@ -152,44 +151,43 @@ TEST(GenerateBody, IcosphereApproachesTheSphere) {
 }
 
 TEST(GenerateBody, FiguresOfThePlane) {
-  const auto triangle = sound(generate_body(Triangle_shape{2}));
+  const auto triangle = sound(triangle_body(2));
   EXPECT_EQ(triangle.edges, (Edges{{0, 1}, {0, 2}, {1, 2}}));
   expect_edge_lengths(triangle, 2);
   expect_centred(triangle);
   EXPECT_NEAR(area(triangle), std::numbers::sqrt3, 1e-15);
-  const auto quad = sound(generate_body(Quad_shape{0.5}));
+  const auto quad = sound(quad_body(0.5));
   EXPECT_EQ(quad.points, (std::vector<Point<2>>{{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}}));
   EXPECT_EQ(quad.edges, (Edges{{0, 1}, {0, 3}, {1, 2}, {2, 3}}));
-  const auto square = sound(generate_body(Polygon_shape{4, 3}));
+  const auto square = sound(polygon_body(4, 3));
   EXPECT_EQ(square.points, (std::vector<Point<2>>{{3, 0}, {0, 3}, {-3, 0}, {0, -3}}));
-  const auto hexagon = sound(generate_body(Polygon_shape{6, 2}));
+  const auto hexagon = sound(polygon_body(6, 2));
   EXPECT_EQ(hexagon.edges.size(), 6u);
   EXPECT_EQ(hexagon.points[1][0], 1);
   EXPECT_EQ(hexagon.points[2][0], -1);
   expect_edge_lengths(hexagon, 2);
-  const auto many = sound(generate_body(Polygon_shape{360, 1}));
+  const auto many = sound(polygon_body(360, 1));
   expect_centred(many);
   EXPECT_NEAR(area(many), 180 * std::sin(std::numbers::pi / 180), 1e-13);
 }
 
 TEST(GenerateBody, CathetersAndPolylines) {
-  const auto catheter = sound(generate_body(Catheter_shape<3>{4, 5}));
+  const auto catheter = sound(catheter_body<3>(4, 5));
   EXPECT_EQ(catheter.points,
             (std::vector<Point<3>>{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
   EXPECT_EQ(catheter.edges, (Edges{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
-  EXPECT_EQ(generate_body(Catheter_shape<2>{1, 2}).points, (std::vector<Point<2>>{{-0.5, 0}, {0.5, 0}}));
-  const auto uneven = sound(generate_body(Catheter_shape<2>{1, 8}));
+  EXPECT_EQ(catheter_body<2>(1, 2).points, (std::vector<Point<2>>{{-0.5, 0}, {0.5, 0}}));
+  const auto uneven = sound(catheter_body<2>(1, 8));
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(uneven.points[i][0], -uneven.points[7 - i][0]);
   const std::vector<Point<2>> points{{1, 2}, {3, 4}, {1, 2}};
-  const auto polyline = sound(generate_body(Polyline_shape<2>{points}));
+  const auto polyline = sound(polyline_body<2>(points));
   EXPECT_EQ(polyline.points, points);
   EXPECT_EQ(polyline.edges, (Edges{{0, 1}, {1, 2}}));
-  EXPECT_TRUE(generate_body(Polyline_shape<3>{{{1, 2, 3}}}).edges.empty());
+  EXPECT_TRUE(polyline_body<3>({{1, 2, 3}}).edges.empty());
 }
 
 TEST(GenerateBody, AnyShape) {
-  EXPECT_EQ(generate_body(Body_shape<3>(Tetrahedron_shape{2})).points,
-            generate_body(Tetrahedron_shape{2}).points);
+  EXPECT_EQ(generate_body(Body_shape<3>(Tetrahedron_shape{2})).points, tetrahedron_body(2).points);
   EXPECT_EQ(generate_body(Body_shape<2>(Catheter_shape<2>{2, 3})).edges, (Edges{{0, 1}, {1, 2}}));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/generators/slits.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/generators/slits.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/generators/room.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/generators/implicit.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

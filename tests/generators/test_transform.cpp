@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/transform.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -29,7 +29,7 @@ std::string refusal(const Body_placement<D>& placement) {
 }
 
 TEST(Transform, NothingChangesNothing) {
-  const auto body = generate_body(Icosphere_shape{0.7, 1});
+  const auto body = icosphere_body(0.7, 1);
   const auto same = transformed(body, {});
   EXPECT_EQ(same.points, body.points);
   EXPECT_EQ(same.edges, body.edges);
@@ -58,7 +58,7 @@ TEST(Transform, QuarterTurnsAreExact) {
 }
 
 TEST(Transform, GivesNoNegativeZero) {
-  const auto body = transformed(generate_body(Quad_shape{2}), {1, {180}, {1, 1}});
+  const auto body = transformed(quad_body(2), {1, {180}, {1, 1}});
   for (const auto& p : body.points)
     for (double c : p) EXPECT_FALSE(std::signbit(c));
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Files damaged at random: whatever the damage, they are read or refused with a reason.
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/parse_surface.h>
+#include <cellwalk/internal/io/planar_file.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/ovm.h>
-#include <cellwalk/io/planar_file.h>
 #include <cellwalk/io/surface_file.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/kernel/counts.h>
+#include <cellwalk/internal/kernel/counts.h>
 
 #include <gtest/gtest.h>
 

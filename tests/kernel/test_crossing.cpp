@@ -2,7 +2,7 @@
 // Bounds of times in numbers of twice the precision of a double. Rounding has to be real here: valgrind, for
 // one, ignores the direction.
 #include <cellwalk/internal/kernel/crossing.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/internal/kernel/orientation_value.h>
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Swept simplices against rational arithmetic, half of the time in degenerate positions.
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/kernel/swept_simplex.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Environments from files and recipes, as the library gives them.
+#include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/loading/environment_file.h>
-#include <cellwalk/loading/generators.h>
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Meshers that misbehave, played by scripts: each becomes one error, and nothing is left of it.
-#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/internal/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <gtest/gtest.h>

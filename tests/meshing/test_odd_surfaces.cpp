@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Odd surfaces through both meshers: a mesh, or a refusal with its place. Nothing dies, hangs or is left.
-#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/internal/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/meshing/mesh3.h>
+#include <cellwalk/internal/meshing/mesh3.h>
+#include <cellwalk/internal/meshing/tissue.h>
 #include <cellwalk/meshing/tetrahedralize.h>
-#include <cellwalk/meshing/tissue.h>
 
 #include <gtest/gtest.h>
 

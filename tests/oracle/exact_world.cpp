@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "oracle/exact_world.h"
 
+#include <cellwalk/internal/environment/cell_check.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>

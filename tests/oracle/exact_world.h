@@ -7,6 +7,7 @@
 #ifndef CELLWALK_TESTS_ORACLE_EXACT_WORLD_H
 #define CELLWALK_TESTS_ORACLE_EXACT_WORLD_H
 
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Motions whose sides of walls are not given are free if they are on some: judged by all combinations of
 // sides of their ends, of walls in the line of the edge, and of walls on the way.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>
 

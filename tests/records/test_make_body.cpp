@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #ifndef CELLWALK_TESTS_RESHAPE_LEVEL_WORLD_H
 #define CELLWALK_TESTS_RESHAPE_LEVEL_WORLD_H
 
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <memory>

@@ -4,9 +4,9 @@
 #ifndef CELLWALK_TESTS_RESHAPE_LISTING_TWINS_H
 #define CELLWALK_TESTS_RESHAPE_LISTING_TWINS_H
 
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>
 

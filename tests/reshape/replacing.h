@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_RESHAPE_REPLACING_H
 #define CELLWALK_TESTS_RESHAPE_REPLACING_H
 
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <array>

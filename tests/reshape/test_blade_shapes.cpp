@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Which polygons are blades: planar and convex ones, however they are turned and rounded; no others.
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Cuts of solid cells along blades, with what stands in the free ones.
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>

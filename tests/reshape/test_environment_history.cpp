@@ -4,8 +4,8 @@
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
 #include <cellwalk/internal/environment/environment_history.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A cut takes nothing from free space, not by a unit in the last place: membranes that are fixed in tissue
 // are slit, and edges of walls split at rounded points, while a judge in rational numbers looks at all cells.
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>

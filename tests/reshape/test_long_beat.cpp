@@ -2,8 +2,8 @@
 // A vessel that beats around a catheter and twenty soft bodies: all is validated after each thousand moves of
 // its vertices, and nothing is stuck once the walls retreat.
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <gtest/gtest.h>

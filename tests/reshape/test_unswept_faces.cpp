@@ -2,7 +2,6 @@
 // Bodies whose faces were swept once and are not any more: the walls that supported them hold nothing, and
 // may go.
 #include <cellwalk/body/body.h>
-#include <cellwalk/body/saved_body.h>
 #include <cellwalk/environment/selection.h>
 #include <cellwalk/reshape/reshaping.h>
 

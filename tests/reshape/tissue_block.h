@@ -5,7 +5,7 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/reshape/cut.h>
 #include <cellwalk/walk/locate.h>
 

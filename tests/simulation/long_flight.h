@@ -13,9 +13,8 @@ namespace cellwalk::test {
 /// Throws hexahedra, spheres and catheters of about this size for so many moves of vertices in CI; ten times
 /// as many in the long test.
 inline void expect_long_flights_are_sound(const Snapshot<3>& snapshot, double size, std::size_t moves_in_ci) {
-  const Body_soup<3> shapes[] = {generate_body(Hexahedron_shape{size, false}),
-                                 generate_body(Icosphere_shape{0.6 * size, 1}),
-                                 generate_body(Catheter_shape<3>{3 * size, 12})};
+  const Body_soup<3> shapes[] = {hexahedron_body(size, false), icosphere_body(0.6 * size, 1),
+                                 catheter_body<3>(3 * size, 12)};
   constexpr int bodies = 10;
   const double step = 0.1 * size;  // at speed 1
   for (const Body_soup<3>& shape : shapes) {

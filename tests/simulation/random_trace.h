@@ -3,10 +3,10 @@
 #ifndef CELLWALK_TESTS_SIMULATION_RANDOM_TRACE_H
 #define CELLWALK_TESTS_SIMULATION_RANDOM_TRACE_H
 
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/simulation/target_recorder.h>
 #include <cellwalk/internal/simulation/trace_environment.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <algorithm>
 #include <array>

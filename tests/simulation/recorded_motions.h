@@ -64,8 +64,7 @@ inline Scene<3> crowd() {
 }
 
 inline std::vector<Body_soup<3>> crowd_shapes() {
-  return {generate_body(Hexahedron_shape{0.5, false}), generate_body(Hexahedron_shape{0.4, true}),
-          generate_body(Icosphere_shape{0.3, 1})};
+  return {hexahedron_body(0.5, false), hexahedron_body(0.4, true), icosphere_body(0.3, 1)};
 }
 
 inline const Recorded_motion& crowded_rooms() {

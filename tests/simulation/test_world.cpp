@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/reshape/reshaping.h>
-#include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
 

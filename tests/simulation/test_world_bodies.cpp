@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies in a world: where they start, what they meet, and what never happens to them.
 #include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -85,7 +85,7 @@ TEST(WorldBodies, NothingPassesAWall2) {
   const auto snapshot = rooms<2>({6, 6}, {14, 16, 27});  // cell x + 6 y
   auto scene = thrown<2>(15, 3, 5);
   scene.gravity = {0, -1};
-  World<2> world(snapshot, scene, {generate_body(Polygon_shape{5, 0.3})});
+  World<2> world(snapshot, scene, {polygon_body(5, 0.3)});
   ASSERT_EQ(world.bodies().size(), 15u);
   Seen_contacts seen;
   run_checked<2>(world, {6, 6}, {{2, 2}, {4, 2}, {3, 4}}, 300, seen);
@@ -98,7 +98,7 @@ TEST(WorldBodies, NothingPassesAWall2) {
 
 TEST(WorldBodies, NothingPassesAWall3) {
   const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});  // cell x + 4 (y + 4 z)
-  World<3> world(snapshot, thrown<3>(10, 2, 9), {generate_body(Hexahedron_shape{0.4, false})});
+  World<3> world(snapshot, thrown<3>(10, 2, 9), {hexahedron_body(0.4, false)});
   Seen_contacts seen;
   run_checked<3>(world, {4, 4, 3}, {{1, 1, 1}, {2, 2, 1}}, 200, seen);
   EXPECT_GT(seen.by_vertex, 100u);
@@ -116,7 +116,7 @@ std::uint64_t hash_of(const World<D>& world, std::uint64_t h = 0) {
 TEST(WorldBodies, IsDeterministicAndValidationChangesNothing) {
   const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});
   const auto run = [&](std::uint64_t seed, bool validate, const Body_options& options) {
-    World<3> world(snapshot, thrown<3>(8, 2, seed), {generate_body(Hexahedron_shape{0.4, false})}, options);
+    World<3> world(snapshot, thrown<3>(8, 2, seed), {hexahedron_body(0.4, false)}, options);
     std::uint64_t h = 0;
     for (int i = 0; i < 100; ++i) {
       world.step();
@@ -137,7 +137,7 @@ TEST(WorldBodies, AnyNumberOfThreadsGivesTheSameBits) {
   const auto snapshot = rooms<3>({4, 4, 3}, {21, 26});
   const auto run = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    World<3> world(snapshot, thrown<3>(40, 2, 5), {generate_body(Hexahedron_shape{0.4, false})});
+    World<3> world(snapshot, thrown<3>(40, 2, 5), {hexahedron_body(0.4, false)});
     std::uint64_t h = 0;
     std::size_t contacts = 0;
     for (int i = 0; i < 60; ++i) {
@@ -159,7 +159,7 @@ TEST(WorldBodies, CopiesStartEverywhereInAllDirections) {
   auto scene = thrown<2>(300, 2, 9);
   scene.bodies[0].placement.scale = 0.5;
   scene.bodies[0].placement.rotation.degrees = 90;
-  const World<2> world(snapshot, scene, {generate_body(Catheter_shape<2>{0.4, 2})});
+  const World<2> world(snapshot, scene, {catheter_body<2>(0.4, 2)});
   std::array<int, 4> in_cell{};
   Vector<2> sum{};
   for (const Moving_body<2>& rigid_body : world.bodies()) {
@@ -187,7 +187,7 @@ Scene<2> guided() {
 
 TEST(WorldBodies, AGuidedBodyIsStoppedByAWallAndSlidesAlongIt) {
   const auto snapshot = rooms<2>({4, 4});
-  World<2> world(snapshot, guided(), {generate_body(Quad_shape{0.5})});
+  World<2> world(snapshot, guided(), {quad_body(0.5)});
   const auto x = [&](std::uint32_t v) { return world.bodies()[0].body().positions()[v]; };
   EXPECT_EQ(x(0), (Point<2>{0.75, 0.75})) << "starts at the first waypoint";
   std::size_t contacts = 0, slid = 0;
@@ -219,11 +219,11 @@ TEST(WorldBodies, AGuidedBodyThatIsHeldBackHasNotArrived) {
   const auto snapshot = rooms<2>({4, 4});
   auto scene = guided();
   scene.bodies[0].guided->path = {{1, 1}, {3.8, 1}};
-  World<2> world(snapshot, scene, {generate_body(Quad_shape{0.5})});
+  World<2> world(snapshot, scene, {quad_body(0.5)});
   for (int i = 0; i < 80; ++i) world.step();
   EXPECT_FALSE(world.bodies()[0].has_arrived());
   scene.bodies[0].guided->path[1] = {3.75, 1};
-  World<2> touching(snapshot, scene, {generate_body(Quad_shape{0.5})});
+  World<2> touching(snapshot, scene, {quad_body(0.5)});
   for (int i = 0; i < 50; ++i) touching.step();
   EXPECT_FALSE(touching.bodies()[0].has_arrived()) << "on its way";
   for (int i = 0; i < 10; ++i) touching.step();
@@ -235,7 +235,7 @@ TEST(WorldBodies, AGuidedBodyTurnsAboutItsOrigin) {
   auto scene = guided();
   scene.bodies[0].guided->path = {{1, 1}, {3, 1}};
   scene.bodies[0].spin = {1};
-  World<2> world(snapshot, scene, {generate_body(Quad_shape{0.5})});
+  World<2> world(snapshot, scene, {quad_body(0.5)});
   for (int i = 0; i < 20; ++i) world.step();
   const Vector<2> corner = world.bodies()[0].body().positions()[0] - Point<2>{2, 1};
   EXPECT_NEAR(std::atan2(corner[1], corner[0]), std::atan2(-1, -1) + 1, 1e-12);
@@ -257,11 +257,11 @@ TEST(WorldBodies, RefusesStartsOutsideFreeSpace) {
   scene.bodies.resize(2);
   scene.bodies[0].placement.position = {0.5, 0.5};
   scene.bodies[1].placement.position = {1, 0.5};
-  const Body_soup<2> rod = generate_body(Catheter_shape<2>{0.5, 2});
+  const Body_soup<2> rod = catheter_body<2>(0.5, 2);
   EXPECT_EQ(
       refusal(snapshot, scene, rod),
       "bodies[1]: vertex 1 of the body, at (1.25, 0.5), is in a solid cell: move the body into free space");
-  const Body_soup<2> long_rod = generate_body(Catheter_shape<2>{2, 2});
+  const Body_soup<2> long_rod = catheter_body<2>(2, 2);
   scene.bodies[0] = scene.bodies[1];
   scene.bodies[0].placement.position = {1.5, 0.5};
   EXPECT_EQ(refusal(snapshot, scene, long_rod),
@@ -308,7 +308,7 @@ TEST(WorldBodies, AreRefusedIfTheirMotionIsNotFinite) {
       if (what == 3) scene.bodies[0].cloud->speed = deforms ? 1e100 : 1e200;  // finite
       if (what == 4) scene.time_step = 1e308;
       if (what == 0) scene.time_step = 1000;
-      World<3> world(snapshot, scene, {generate_body(Hexahedron_shape{0.4, false})});
+      World<3> world(snapshot, scene, {hexahedron_body(0.4, false)});
       const std::string said = refusal_of_steps(world, 5);
       if (what == 3)
         EXPECT_EQ(said, "") << deforms;
@@ -332,7 +332,7 @@ TEST(WorldBodies, NoStepIsSoLongOrMotionSoFastThatResultsAreNotFinite) {
             scene.gravity = {0, -gravity};
             if (deforms) scene.bodies[0].material = Shape_material{};
             if (particle) scene.particles = {Particle_start<2>{{1.5, 1.5}, {speed, speed}}};
-            World<2> world(snapshot, scene, {generate_body(Quad_shape{0.25})});
+            World<2> world(snapshot, scene, {quad_body(0.25)});
             const bool is_made = refusal_of_steps(world, 2).empty();
             (is_made ? made : refused) += 1;
             if (is_made) {
@@ -357,7 +357,7 @@ TEST(WorldBodies, NoStepIsSoLongOrMotionSoFastThatResultsAreNotFinite) {
 TEST(WorldBodies, NeedAShapeEach) {
   const auto snapshot = rooms<2>({4, 4});
   EXPECT_THROW(World<2>(snapshot, guided()), Error);
-  EXPECT_NO_THROW(World<2>(snapshot, guided(), {generate_body(Quad_shape{0.5})}));
+  EXPECT_NO_THROW(World<2>(snapshot, guided(), {quad_body(0.5)}));
 }
 
 }  // namespace

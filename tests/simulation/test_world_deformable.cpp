@@ -2,7 +2,7 @@
 // The scene of the paper in small: deformable hexahedra bounce in a grid with a tenth of its cells solid.
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ Snapshot<3> grid() {
 void expect_hexahedra_bounce(const Shape_material& material, int steps) {
   const auto snapshot = grid();
   const auto bodies = static_cast<std::uint32_t>(std::min<std::size_t>(225, oracle::scaled_count(225)));
-  World<3> world(snapshot, hexahedra(bodies, material), {generate_body(Hexahedron_shape{0.3, false})});
+  World<3> world(snapshot, hexahedra(bodies, material), {hexahedron_body(0.3, false)});
   ASSERT_EQ(world.bodies().size(), bodies);
   std::vector<double> energy;
   for (const auto& body : world.bodies()) {
@@ -71,7 +71,7 @@ TEST(WorldDeformable, QuadraticHexahedraBounce) {
 /// Bodies do not see each other: each does alone what it does among others.
 TEST(WorldDeformable, BodiesAreIndependent) {
   const auto snapshot = grid();
-  const Body_soup<3> shape = generate_body(Hexahedron_shape{0.3, false});
+  const Body_soup<3> shape = hexahedron_body(0.3, false);
   World<3> together(snapshot, hexahedra(6, {Shape_mode::linear, 0.5, 0.8, true}), {shape});
   std::vector<Moving_body<3>> alone(together.bodies().begin(), together.bodies().end());
   for (int i = 0; i < 100; ++i) together.step();

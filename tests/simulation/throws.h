@@ -4,9 +4,9 @@
 #define CELLWALK_TESTS_SIMULATION_THROWS_H
 
 #include <cellwalk/generators/transform.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/rigid_body.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/rigid_body.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_SIMULATION_TISSUE_LAB_H
 
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/simulation/tissue.h>
+#include <cellwalk/internal/simulation/tissue.h>
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_TESTS_WALK_ORACLE_TRIAL_H
 #define CELLWALK_TESTS_WALK_ORACLE_TRIAL_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <array>
 #include <cstddef>

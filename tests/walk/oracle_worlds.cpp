@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "walk/oracle_worlds.h"
 
-#include <cellwalk/generators/slits.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/generators/slits.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_WALK_ORACLE_WORLDS_H
 #define CELLWALK_TESTS_WALK_ORACLE_WORLDS_H
 
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>

@@ -3,9 +3,9 @@
 #ifndef CELLWALK_TESTS_WALK_REORDERED_H
 #define CELLWALK_TESTS_WALK_REORDERED_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/walk.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Environments after many edits, judged by the oracle: they are certified, equal to what compiling them from
 // scratch gives, and walks in them are right. Particles left in cells that are gone are refused.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/walk.h>
 
 #include <gtest/gtest.h>

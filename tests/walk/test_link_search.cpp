@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The search for linked cells: its order, its ways, and of which facets it asks.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/star.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Location against the oracle: on facets, edges and vertices, outside, in solid cells, on membranes and
 // pinches.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Particles in a real vessel: none ever leaves it, and every verdict is the oracle's.
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/io/surface_file.h>
-#include <cellwalk/kernel/random.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/walk/locate.h>
 

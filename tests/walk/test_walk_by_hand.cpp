@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walk and locate where the answer is known by heart: every strategy, the cells crossed, there and back.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

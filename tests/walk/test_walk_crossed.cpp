@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The facets that a walk reports as crossed lead, one by one, through the cells it visited.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_WORLD_H
 #define CELLWALK_EXPERIMENTS_FIGURE_8_PEERS_WORLD_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EXPERIMENTS_COMMON_PEERS_WALL_MESH_H
 #define CELLWALK_EXPERIMENTS_COMMON_PEERS_WALL_MESH_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_BODY_STEP_H
 #define CELLWALK_BODY_STEP_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/edge/chain.h>
 #include <cellwalk/edge/sweep.h>
 
 #include <array>

@@ -45,6 +45,21 @@ struct Edge_counts {
 };
 static_assert(names_all_before<Edge_counts>(offsetof(Edge_counts, walk)));
 
+/// The counts of the sweeps of faces. They are machine-independent.
+struct Face_counts {
+  std::uint64_t faces = 0;          ///< swept or registered
+  std::uint64_t clear = 0;          ///< proved to meet no wall, by planes and boxes
+  std::uint64_t flooded_cells = 0;  ///< cells visited by floods
+  std::uint64_t walls = 0;          ///< walls near the other faces, whose vertices were tested
+  std::uint64_t clipped = 0;        ///< walls clipped in rational numbers
+  std::uint64_t flat = 0;           ///< moves in the plane of the face that determined its supporting walls
+  Walk_counts walk;                 ///< of all signs
+
+  static constexpr std::array<std::string_view, 6> names{"swept", "clear",   "flooded_cells",
+                                                         "walls", "clipped", "flat"};
+};
+static_assert(names_all_before<Face_counts>(offsetof(Face_counts, walk)));
+
 /// The chain of a segment, or the wall that blocks it.
 template <int D>
 struct Chain_result {

@@ -4,7 +4,6 @@
 #ifndef CELLWALK_ENVIRONMENT_CERTIFY_H
 #define CELLWALK_ENVIRONMENT_CERTIFY_H
 
-#include <cellwalk/environment/cell_shape.h>
 #include <cellwalk/environment/snapshot.h>
 
 #include <array>
@@ -14,32 +13,6 @@
 #include <vector>
 
 namespace cellwalk {
-
-/// The defect of a cell.
-enum class Cell_defect {
-  none,
-  not_finite,        ///< a coordinate is infinite or not a number
-  not_closed,        ///< the facets do not form one closed surface (Euler characteristic 2)
-  degenerate_facet,  ///< all vertices of a facet are collinear
-  facet_not_planar,
-  facet_not_convex,  ///< not a convex polygon that winds once (collinear vertices are allowed)
-  not_convex,        ///< a vertex lies strictly outside a facet
-  inverted,          ///< all facets face inwards
-  flat,              ///< zero volume
-  wound              ///< coplanar facets overlap: the surface winds over itself
-};
-
-struct Cell_check {
-  Cell_defect defect = Cell_defect::none;
-  std::size_t facet = 0;  ///< the local facet concerned, if any
-};
-
-/// Checks one cell exactly: planar convex facets, closed, convex, positively oriented, positive volume.
-template <int D>
-Cell_check check_cell(const Cell_view<D>& cell);
-
-/// A one-line description of a defect, without the cell: "facet 3 is not exactly planar".
-std::string describe(const Cell_check& check);
 
 /// The counts of a certified complex.
 struct Certificate {
@@ -54,6 +27,17 @@ struct Certificate {
   /// Vertices whose cells are not connected through facets that contain them.
   std::size_t pinched_vertices = 0;
   double volume = 0, free_volume = 0;  ///< area in 2D; rounded
+};
+
+/// The changes made by splitting; all zero if every cell was valid.
+struct Split_report {
+  std::size_t cells_split = 0;          ///< input cells replaced
+  std::size_t cells_made = 0;           ///< cells they were replaced by
+  std::size_t facets_triangulated = 0;  ///< facets split into triangles, consistently on both sides
+  std::size_t points_added = 0;         ///< interior points of stars
+  std::size_t not_planar = 0;           ///< cells split because a facet is not exactly planar
+  std::size_t not_convex = 0;           ///< cells split because they are planar but not exactly convex
+  std::size_t not_simplices = 0;        ///< valid cells split because simplices were requested
 };
 
 /// Pairs of boundary facets of two free cells that turn their outer sides to each other.

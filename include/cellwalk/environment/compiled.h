@@ -6,8 +6,7 @@
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/groups.h>
-#include <cellwalk/kernel/of_dimension.h>
+#include <cellwalk/environment/selection.h>
 
 #include <cstddef>
 #include <functional>

@@ -7,12 +7,15 @@
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/environment/split.h>
 #include <cellwalk/internal/environment/held_snapshot.h>
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace cellwalk {
@@ -110,7 +113,7 @@ class Environment {
   /// Builds the map again from the snapshot, which stays as it is, with all names: functions that refused a
   /// frozen environment work from then on. Does nothing unless it is frozen.
   /// \throw Error(input) for 2^29 half-facets or more, with nothing changed
-  /// Cost: about 1 us a tetrahedron; memory 679 bytes a tetrahedron.
+  /// Cost: about 1 us a tetrahedron; memory 681 bytes a tetrahedron.
   void thaw();
 
   /// Gives back the memory that edits left behind, and puts cells that they added beside their neighbours, as
@@ -206,6 +209,24 @@ class Environment {
 
 extern template class Environment<2>;
 extern template class Environment<3>;
+
+/// The value held, such as the environment of an import, if it has dimension D.
+/// \throw Error(input) if it has the other dimension
+template <int D, template <int> class Kind>
+const Kind<D>& of_dimension(const std::variant<Kind<2>, Kind<3>>& any) {
+  if (const Kind<D>* held = std::get_if<Kind<D>>(&any)) return *held;
+  throw Error(Error_code::input, "this has dimension " + std::to_string(5 - D) + ", where " +
+                                     std::to_string(D) + " is expected: give one of that dimension");
+}
+template <int D, template <int> class Kind>
+Kind<D>& of_dimension(std::variant<Kind<2>, Kind<3>>& any) {
+  return const_cast<Kind<D>&>(of_dimension<D>(std::as_const(any)));
+}
+/// The same of a temporary, which is moved from.
+template <int D, template <int> class Kind>
+Kind<D> of_dimension(std::variant<Kind<2>, Kind<3>>&& any) {
+  return std::move(of_dimension<D>(any));
+}
 
 }  // namespace cellwalk
 

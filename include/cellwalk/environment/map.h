@@ -8,7 +8,6 @@
 #ifndef CELLWALK_ENVIRONMENT_MAP_H
 #define CELLWALK_ENVIRONMENT_MAP_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/cell_soup.h>
@@ -19,14 +18,13 @@
 #include <CGAL/Linear_cell_complex_traits.h>
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace cellwalk {
 
-/// The information of a dart, in 8 bytes that CGAL would use for padding (679 bytes a tetrahedron in total).
+/// The information of a dart, in 8 bytes that CGAL would use for padding (681 bytes a tetrahedron in total).
 class Dart_info {
  public:
   static constexpr std::uint32_t most_half_facets = 1u << 29;
@@ -127,35 +125,6 @@ void for_each_dart_of_half_facet(Any_map& map, Any_dart d, const F& f) {
     } while (e != d);
   }
 }
-
-/// Builds the map of a glued soup. Half-facets get the numbers of the soup, which compiling a snapshot
-/// replaces (assign_half_facets). A facet is marked impassable if either side is, on the boundary, and
-/// between a solid and a free cell.
-/// \pre gluing = glue(soup); every point is a vertex of some cell
-/// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell
-/// Cost: about 0.8 us a tetrahedron on one core, 0.5 us on two; memory 679 bytes a tetrahedron.
-template <int D>
-std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing);
-
-/// Renumbers all half-facets: the one that starts at darts[i] becomes half_facets[i].
-/// \param slots the size of an array indexed by half-facets
-template <int D>
-void assign_half_facets(Map_storage<D>& storage, std::span<const Dart<D>> darts,
-                        std::span<const Half_facet> half_facets, std::size_t slots);
-
-/// The counts of a map.
-struct Map_counts {
-  std::size_t cells = 0, facets = 0, boundary_facets = 0, vertices = 0, darts = 0;
-
-  bool operator==(const Map_counts&) const = default;
-};
-
-/// Checks every link of the map (inverses, involutions, both sides of facets and edges run against each
-/// other, ends and marks agree) and that darts, half-facets, vertices and points refer to each other; counts
-/// the cells.
-/// \throw Error(other) naming the cell at fault: the map was damaged from outside
-template <int D>
-Map_counts check_map(const Map_storage<D>& storage);
 
 extern template struct Map_storage<2>;
 extern template struct Map_storage<3>;

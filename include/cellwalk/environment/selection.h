@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Parts of an environment: the facets and cells that lie somewhere.
+// Parts of an environment: the facets and cells that lie somewhere, or have a name.
 #ifndef CELLWALK_ENVIRONMENT_SELECTION_H
 #define CELLWALK_ENVIRONMENT_SELECTION_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/records/environment_change.h>
+#include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/environment_part.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace cellwalk {
@@ -37,6 +40,17 @@ extern template Point<2> centroid(const Snapshot<2>&, Half_facet);
 extern template Point<3> centroid(const Snapshot<3>&, Half_facet);
 extern template Point<2> centroid(const Snapshot<2>&, Cell);
 extern template Point<3> centroid(const Snapshot<3>&, Cell);
+
+/// Named groups. Facets are seen from the cell of lower number; those of the boundary are among them.
+template <int D>
+using Groups = std::map<std::string, Selection<D>>;
+
+/// The same groups by the numbers of Environment::soup(), as files have them.
+template <int D>
+Soup_groups soup_groups(const Snapshot<D>& snapshot, const Groups<D>& groups);
+
+extern template Soup_groups soup_groups(const Snapshot<2>&, const Groups<2>&);
+extern template Soup_groups soup_groups(const Snapshot<3>&, const Groups<3>&);
 
 }  // namespace cellwalk
 

@@ -8,10 +8,10 @@
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_H
 
 #include <cellwalk/environment/cell_shape.h>
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/internal/environment/cell_clusters.h>
 #include <cellwalk/internal/environment/edit_log.h>
 #include <cellwalk/internal/environment/flat_array.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/internal/environment/tissue_boxes.h>
 #include <cellwalk/records/cell_soup.h>

@@ -45,20 +45,6 @@ Lattice_map<D> rotated(double scale = 1);
 template <int D>
 Lattice_map<D> sheared(double scale = 1);
 
-/// The condition on the image of a lattice.
-enum class Placement {
-  planar,   ///< lattice planes stay exactly planar
-  positive  ///< cells keep their orientation: enough for simplices
-};
-
-/// Checks the images of the lattice points 0 <= k[i] <= extent[i], k[i] multiples of 2^-binary_places.
-/// Placement::planar requires that either no coordinate is rounded, or each coordinate depends on one axis
-/// only (then rounding moves whole lattice planes) and neighbouring planes stay separate.
-/// \throw Error(usage) if the condition fails, or if the map is singular or a reflection
-template <int D>
-void check_placement(const Lattice_map<D>& map, const std::array<std::uint32_t, D>& extent, int binary_places,
-                     Placement placement);
-
 }  // namespace cellwalk
 
 #endif  // CELLWALK_GENERATORS_LATTICE_MAP_H

@@ -3,7 +3,6 @@
 #ifndef CELLWALK_GENERATORS_TRANSFORM_H
 #define CELLWALK_GENERATORS_TRANSFORM_H
 
-#include <cellwalk/records/body_shape.h>
 #include <cellwalk/records/body_soup.h>
 
 namespace cellwalk {

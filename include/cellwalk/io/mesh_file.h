@@ -4,7 +4,6 @@
 #define CELLWALK_IO_MESH_FILE_H
 
 #include <cellwalk/records/cell_soup.h>
-#include <cellwalk/records/soup_groups.h>
 #include <cellwalk/records/surface_soup.h>
 
 #include <cstddef>
@@ -50,17 +49,6 @@ Mesh_file read_mesh(const std::filesystem::path& path);
 /// The same of the bytes of such a file, for sources that can be read only once.
 /// \param name stands for the file in errors, and determines the format if the content does not
 Mesh_file read_mesh(const std::filesystem::path& name, std::string bytes);
-
-/// A reader that is an optional part of the build.
-struct Build_feature {
-  std::string_view name;  ///< such as "vtk"
-  bool present = false;
-  std::string version;       ///< empty if absent
-  std::string_view purpose;  ///< the formats that it reads
-};
-
-/// The optional parts, with those that this build has.
-std::vector<Build_feature> build_features();
 
 /// One line with all formats that this build reads.
 std::string supported_formats();

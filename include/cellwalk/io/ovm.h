@@ -9,10 +9,8 @@
 #ifndef CELLWALK_IO_OVM_H
 #define CELLWALK_IO_OVM_H
 
-#include <cellwalk/io/atomic_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/records/cell_soup.h>
-#include <cellwalk/records/soup_groups.h>
 
 #include <filesystem>
 #include <string>
@@ -40,14 +38,8 @@ Mesh_file parse_ovm(const std::string& name, std::string_view text);
 template <int D>
 void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup, const Soup_groups& groups = {});
 
-/// Writes into a file that the caller commits.
-template <int D>
-void write_ovm(Atomic_file& file, const Cell_soup<D>& soup, const Soup_groups& groups = {});
-
 extern template void write_ovm<2>(const std::filesystem::path&, const Cell_soup<2>&, const Soup_groups&);
 extern template void write_ovm<3>(const std::filesystem::path&, const Cell_soup<3>&, const Soup_groups&);
-extern template void write_ovm<2>(Atomic_file&, const Cell_soup<2>&, const Soup_groups&);
-extern template void write_ovm<3>(Atomic_file&, const Cell_soup<3>&, const Soup_groups&);
 
 }  // namespace cellwalk::io
 

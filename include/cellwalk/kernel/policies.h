@@ -16,7 +16,7 @@
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
 
-#include <cellwalk/kernel/counts.h>
+#include <cellwalk/internal/kernel/counts.h>
 #include <cellwalk/kernel/point.h>
 
 #include <array>

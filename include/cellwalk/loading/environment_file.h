@@ -4,15 +4,15 @@
 #define CELLWALK_LOADING_ENVIRONMENT_FILE_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/groups.h>
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/environment/selection.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/of_dimension.h>
-#include <cellwalk/loading/mesher.h>
+
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -61,16 +61,40 @@ bool is_compiled_name(const std::filesystem::path& path);
 /// True if a file has this name, or is none but begins as compiled environments do.
 bool is_compiled_file(const std::string& path);
 
-/// Writes an environment into a file that the caller commits: compiled, if that is named *.cellwalk, or else
-/// in OpenVolumeMesh. Indices that edits left unused are given up first, as OpenVolumeMesh has none: see
+/// Writes an environment: compiled, if the file is named *.cellwalk, or else in OpenVolumeMesh. It appears
+/// complete or not at all. Indices that edits left unused are given up first, as OpenVolumeMesh has none: see
 /// Environment::compact().
+/// \param path of the file
+/// \param environment whose unused indices are given up
 /// \param certificate of the environment as it is now
-/// \throw Error(other) if the device is full
+/// \param groups of its facets and cells
+/// \throw Error(other) if it cannot be written
 template <int D>
-void write_environment(io::Atomic_file& file, Environment<D>& environment, const Certificate& certificate,
-                       Groups<D> groups);
-extern template void write_environment(io::Atomic_file&, Environment<2>&, const Certificate&, Groups<2>);
-extern template void write_environment(io::Atomic_file&, Environment<3>&, const Certificate&, Groups<3>);
+void write_environment(const std::filesystem::path& path, Environment<D>& environment,
+                       const Certificate& certificate, const Groups<D>& groups = {});
+extern template void write_environment(const std::filesystem::path&, Environment<2>&, const Certificate&,
+                                       const Groups<2>&);
+extern template void write_environment(const std::filesystem::path&, Environment<3>&, const Certificate&,
+                                       const Groups<3>&);
+
+enum class Mesher { tetgen, mesh3 };
+
+struct Mesher_options {
+  Mesher mesher = Mesher::tetgen;
+  /// TetGen: bound of circumradius to shortest edge; 0: none; not given: its default
+  std::optional<double> quality{};
+  /// Bound of circumradii (Mesh_3), or of volumes by that of a regular tetrahedron of this circumradius
+  /// (TetGen), in units of the surface; 0: the default of Mesh_3, none for TetGen
+  double cell_size = 0;
+  double distance = 0;          ///< Mesh_3: maximal distance of the boundary from the surface; 0: its default
+  bool keep_obstacles = false;  ///< not by Mesh_3
+  /// Names of the obstacles in messages; default: "obstacle 1", ...
+  std::vector<std::string> obstacle_names{};
+  double time_limit = 600;  ///< seconds that TetGen or Mesh_3 may take in all, greater than 0
+  /// Called at least every tenth of a second while TetGen or Mesh_3 runs. An exception that it throws ends
+  /// the mesher and passes through.
+  std::function<void()> on_wait{};
+};
 
 struct Import_options {
   std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface

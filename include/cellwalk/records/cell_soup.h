@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace cellwalk {
@@ -103,6 +105,16 @@ inline std::size_t add_polygon(Cell_soup<2>& soup, std::span<const std::uint32_t
   for (std::size_t i = 0; i < v.size(); ++i) soup.add_facet({v[i], v[(i + 1) % v.size()]});
   return soup.end_cell();
 }
+
+/// A named group of facets and cells, as files have them.
+struct Soup_group {
+  std::vector<std::uint32_t> facets;  ///< numbers of half-facets; one side of a facet suffices
+  std::vector<std::uint32_t> cells;
+
+  bool operator==(const Soup_group&) const = default;
+};
+
+using Soup_groups = std::map<std::string, Soup_group>;
 
 }  // namespace cellwalk
 

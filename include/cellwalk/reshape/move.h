@@ -3,7 +3,7 @@
 #ifndef CELLWALK_RESHAPE_MOVE_H
 #define CELLWALK_RESHAPE_MOVE_H
 
-#include <cellwalk/kernel/counts.h>
+#include <cellwalk/internal/kernel/counts.h>
 #include <cellwalk/reshape/residents.h>
 #include <cellwalk/walk/contact.h>
 #include <cellwalk/walk/walk.h>

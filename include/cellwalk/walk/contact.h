@@ -21,7 +21,9 @@ enum class Body_feature : std::uint8_t { vertex, edge, face };
 /// The contact that blocks a motion: of a point, or of an edge or a face at a vertex that moves.
 template <int D>
 struct Contact {
-  double time = 0;   ///< the share of the motion that is free: the greatest double that is not later
+  /// The share of the motion that is free: the greatest double that is not later. Of the motion that is left,
+  /// where a vertex that slides meets another wall in the same step.
+  double time = 0;
   Point<D> point{};  ///< where the wall is met, rounded
   /// Unit, on the free side. If the point is blocked, or an edge by the interior of a facet, that of the
   /// wall; if an edge is blocked by an edge or vertex, the direction perpendicular to both. Always against

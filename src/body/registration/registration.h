@@ -4,7 +4,7 @@
 #define CELLWALK_BODY_REGISTRATION_REGISTRATION_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/environment/edit_log.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/walk/locate.h>

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_COMMON_CHANGES_TABLE_H
 
 #include <cellwalk/internal/io/csv.h>
-#include <cellwalk/simulation/change_schedule.h>
+#include <cellwalk/internal/simulation/change_schedule.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_COMMON_COUNTS_JSON_H
 
 #include <cellwalk/edge/sweep.h>
-#include <cellwalk/kernel/counts.h>
+#include <cellwalk/internal/kernel/counts.h>
 #include <cellwalk/walk/walk.h>
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // The option of the edge length, and the numbers of cells of edges as a sentence and as JSON.
 #include "edge_cells.h"
 
-#include <cellwalk/loading/report.h>
+#include <cellwalk/internal/loading/report.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

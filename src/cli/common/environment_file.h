@@ -3,9 +3,9 @@
 #ifndef CELLWALK_CLI_COMMON_ENVIRONMENT_FILE_H
 #define CELLWALK_CLI_COMMON_ENVIRONMENT_FILE_H
 
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
+#include <cellwalk/internal/loading/report.h>
 #include <cellwalk/loading/environment_file.h>
-#include <cellwalk/loading/report.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_CLI_COMMON_OUTPUTS_H
 #define CELLWALK_CLI_COMMON_OUTPUTS_H
 
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 
 #include <sys/types.h>
 

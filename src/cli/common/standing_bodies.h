@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_COMMON_STANDING_BODIES_H
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/reshape/residents.h>
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk deform ENV MOVES.csv -o OUT.ovm: moves points of an environment one after the other, as far as the
 // bodies in it allow.
+#include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <fmt/format.h>

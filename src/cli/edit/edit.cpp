@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk edit ENV CHANGES.json -o OUT.ovm: opens and closes facets, excavates, fills and cuts cells, and
 // sews cuts up, as far as the bodies in the environment allow.
-#include <cellwalk/io/changes_file.h>
+#include <cellwalk/internal/environment/groups.h>
+#include <cellwalk/internal/io/changes_file.h>
+#include <cellwalk/internal/loading/environment_writer.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_CLI_QUERY_PICTURE_H
 #define CELLWALK_CLI_QUERY_PICTURE_H
 
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/query/answer.h>
 #include <cellwalk/walk/locate.h>
 

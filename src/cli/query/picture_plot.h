@@ -5,7 +5,7 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/drawing/figure.h>
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/walk/contact.h>
 
 #include <set>

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_QUERY_WALK_REPRO_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 
 #include <string>
 

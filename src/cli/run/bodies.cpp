@@ -2,7 +2,7 @@
 // The loading of bodies, and their counts of moves, edges and contacts in words and as JSON.
 #include "bodies.h"
 
-#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/generators/body_of_shape.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/kernel/error.h>
 

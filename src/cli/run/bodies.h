@@ -3,9 +3,9 @@
 #ifndef CELLWALK_CLI_RUN_BODIES_H
 #define CELLWALK_CLI_RUN_BODIES_H
 
+#include <cellwalk/internal/records/scene.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/records/body_soup.h>
-#include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/world.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_RUN_CHANGES_H
 
 #include <cellwalk/internal/simulation/saved_state.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -2,7 +2,7 @@
 // Rows of contacts and frames, written step by step.
 #include "files.h"
 
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/core.h>

@@ -5,9 +5,9 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/frame_series.h>
 #include <cellwalk/internal/simulation/saved_contacts.h>
-#include <cellwalk/io/frame_series.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_CLI_RUN_GRIDS_H
 #define CELLWALK_CLI_RUN_GRIDS_H
 
-#include <cellwalk/io/vtu.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/io/vtu.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <vector>
 

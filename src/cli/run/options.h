@@ -4,8 +4,8 @@
 #define CELLWALK_CLI_RUN_OPTIONS_H
 
 #include <cellwalk/body/step.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/durable.h>
-#include <cellwalk/io/atomic_file.h>
 
 #include <cstddef>
 #include <cstdint>

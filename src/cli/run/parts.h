@@ -6,9 +6,9 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
+#include <cellwalk/internal/records/scene.h>
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
-#include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstdint>
 #include <memory>

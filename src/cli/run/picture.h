@@ -6,8 +6,8 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/drawing/picture.h>
-#include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/records/scene.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstddef>
 #include <cstdint>

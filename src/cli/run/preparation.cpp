@@ -2,7 +2,7 @@
 // The loading or generation of the environment, with a map only if its run needs one.
 #include "preparation.h"
 
-#include <cellwalk/loading/generators.h>
+#include <cellwalk/internal/loading/generators.h>
 
 #include <fmt/core.h>
 

@@ -5,8 +5,8 @@
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/internal/ranks/ranks.h>
+#include <cellwalk/internal/records/scene.h>
 #include <cellwalk/loading/environment_file.h>
-#include <cellwalk/records/scene.h>
 
 #include <string>
 

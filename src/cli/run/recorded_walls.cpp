@@ -2,7 +2,7 @@
 // Numbers of the loops and points of walls, and the differences after each change.
 #include "recorded_walls.h"
 
-#include <cellwalk/io/vtu.h>
+#include <cellwalk/internal/io/vtu.h>
 
 #include <algorithm>
 #include <utility>

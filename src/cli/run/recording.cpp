@@ -2,7 +2,7 @@
 // The choice of the interval between frames, and how each motion was decided.
 #include "recording.h"
 
-#include <cellwalk/io/vtu.h>
+#include <cellwalk/internal/io/vtu.h>
 
 #include <algorithm>
 #include <limits>

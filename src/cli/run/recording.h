@@ -5,7 +5,7 @@
 
 #include <cellwalk/internal/io/recording_file.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk run [SCENE.json] -o DIR: simulates a scene and writes the results.
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/json_file.h>
-#include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/scene.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // The text of a scene, with the changes of the command line applied before it is parsed.
 #include "scene_source.h"
 
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/scene.h>
 
 #include <filesystem>
 

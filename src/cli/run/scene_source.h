@@ -3,7 +3,7 @@
 #ifndef CELLWALK_CLI_RUN_SCENE_SOURCE_H
 #define CELLWALK_CLI_RUN_SCENE_SOURCE_H
 
-#include <cellwalk/records/scene.h>
+#include <cellwalk/internal/records/scene.h>
 
 #include <string>
 #include <vector>

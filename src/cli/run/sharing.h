@@ -5,9 +5,9 @@
 #define CELLWALK_CLI_RUN_SHARING_H
 
 #include <cellwalk/internal/ranks/ranks.h>
+#include <cellwalk/internal/records/scene.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/internal/simulation/world_part.h>
-#include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/world.h>
 
 #include <cstdint>
 #include <optional>

@@ -3,10 +3,10 @@
 #ifndef CELLWALK_CLI_RUN_TRACE_H
 #define CELLWALK_CLI_RUN_TRACE_H
 
+#include <cellwalk/internal/io/atomic_file.h>
+#include <cellwalk/internal/records/scene.h>
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
-#include <cellwalk/io/atomic_file.h>
-#include <cellwalk/records/scene.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstddef>
 #include <filesystem>

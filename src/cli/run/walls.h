@@ -4,11 +4,11 @@
 #define CELLWALK_CLI_RUN_WALLS_H
 
 #include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/simulation/elastic_foundation.h>
 #include <cellwalk/internal/simulation/saved_state.h>
-#include <cellwalk/simulation/elastic_foundation.h>
-#include <cellwalk/simulation/tissue.h>
-#include <cellwalk/simulation/wall_pulsation.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/tissue.h>
+#include <cellwalk/internal/simulation/wall_pulsation.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EDGE_FACE_RIDGE_WEDGES_H
 #define CELLWALK_EDGE_FACE_RIDGE_WEDGES_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/kernel/fraction.h>
 
 #include <optional>

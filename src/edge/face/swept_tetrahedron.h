@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EDGE_FACE_SWEPT_TETRAHEDRON_H
 #define CELLWALK_EDGE_FACE_SWEPT_TETRAHEDRON_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 
 #include <array>
 #include <vector>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_FACE_TRIANGLE_IN_PLANE_H
 #define CELLWALK_EDGE_FACE_TRIANGLE_IN_PLANE_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 
 #include <array>
 #include <cstddef>

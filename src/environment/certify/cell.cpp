@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The geometry of one cell, by signs only. Proof that the conditions suffice: docs/certification.md.
+#include <cellwalk/internal/environment/cell_check.h>
+
 #include <algorithm>
 
 #include "polygon.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The passes of certification in order, and the simplest of them. Proof: docs/certification.md.
 #include <cellwalk/environment/certify.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
 #include <tbb/parallel_sort.h>

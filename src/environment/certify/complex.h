@@ -7,6 +7,7 @@
 #define CELLWALK_ENVIRONMENT_CERTIFY_COMPLEX_H
 
 #include <cellwalk/environment/certify.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/kernel/policies.h>
 
 #include <tbb/blocked_range.h>

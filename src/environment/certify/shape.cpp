@@ -2,6 +2,8 @@
 // The tests that facets form a sphere, that they are planar, and that the cell is convex.
 #include "shape.h"
 
+#include <cellwalk/internal/environment/cell_check.h>
+
 #include <algorithm>
 #include <numeric>
 #include <string>

@@ -4,6 +4,7 @@
 #define CELLWALK_ENVIRONMENT_CERTIFY_SHAPE_H
 
 #include <cellwalk/environment/certify.h>
+#include <cellwalk/internal/environment/cell_check.h>
 
 #include <array>
 #include <cstdint>

@@ -2,6 +2,7 @@
 // An exact check of the map that is cheap enough to run after every build; CGAL's is_valid() visits every
 // orbit with marks.
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/build_map.h>
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/blocked_range.h>

@@ -2,6 +2,7 @@
 // Darts are created in the order of the soup, those of a half-facet consecutively; then cells and facets are
 // linked in parallel: every link writes only into the darts that it joins.
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/build_map.h>
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/blocked_range.h>

@@ -5,6 +5,7 @@
 
 #include <cellwalk/environment/map.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/environment/build_map.h>
 
 namespace cellwalk {
 

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_ENVIRONMENT_SOUP_CORNER_ORBITS_H
 #define CELLWALK_ENVIRONMENT_SOUP_CORNER_ORBITS_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>

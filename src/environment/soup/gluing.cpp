@@ -2,7 +2,7 @@
 // Half-facets are put into buckets by their lowest vertex (counting sort), then sorted in each bucket by
 // their second lowest and highest vertices: for triangles that is the whole vertex set. Buckets are small,
 // and are matched in parallel.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/blocked_range.h>

@@ -2,6 +2,7 @@
 // The cuts of facets that suit the cells on both sides, repaired by trying other diagonals.
 #include "plan.h"
 
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/blocked_range.h>

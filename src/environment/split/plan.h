@@ -5,8 +5,9 @@
 #define CELLWALK_ENVIRONMENT_SPLIT_PLAN_H
 
 #include <cellwalk/environment/certify.h>
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/environment/split.h>
+#include <cellwalk/internal/environment/cell_check.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/environment/split.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <array>

@@ -2,6 +2,7 @@
 // The check of every cell of a soup, and the refusal of those that no split can repair.
 #include "soup.h"
 
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/blocked_range.h>

@@ -4,6 +4,7 @@
 #define CELLWALK_ENVIRONMENT_SPLIT_SOUP_H
 
 #include <cellwalk/environment/certify.h>
+#include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>

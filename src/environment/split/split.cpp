@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The conforming split in 3D: facets into triangles, then cells into stars of tetrahedra.
-#include <cellwalk/environment/split.h>
+#include <cellwalk/internal/environment/cell_check.h>
+#include <cellwalk/internal/environment/split.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The split in 2D: polygons into triangles. Edges are never cut, so neighbours are not affected.
-#include <cellwalk/environment/split.h>
+#include <cellwalk/internal/environment/cell_check.h>
+#include <cellwalk/internal/environment/split.h>
 #include <cellwalk/kernel/error.h>
 
 #include <numeric>

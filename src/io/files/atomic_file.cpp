@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Temporary names, links and descriptors, and the rename at the commit.
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fcntl.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The edges and faces of a body, from a surface, from elements, from cells or from a table.
+#include <cellwalk/internal/io/parse_surface.h>
 #include <cellwalk/internal/io/query_file.h>
 #include <cellwalk/io/body_file.h>
-#include <cellwalk/records/make_body.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <fmt/format.h>
 

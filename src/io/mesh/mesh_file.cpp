@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The reader of each format, chosen by the content of the file.
+#include <cellwalk/internal/io/build_features.h>
+#include <cellwalk/internal/io/parse_surface.h>
+#include <cellwalk/internal/io/planar_file.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/io/ovm.h>
-#include <cellwalk/io/planar_file.h>
 #include <cellwalk/io/surface_file.h>
 
 #include <fmt/format.h>

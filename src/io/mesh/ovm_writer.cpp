@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The writer of .ovm: numbers of edges and faces, and properties of walls, solid cells and groups.
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
+#include <cellwalk/internal/io/ovm_writer.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The .poly format of Shewchuk's Triangle. CGAL's reader names no line.
-#include <cellwalk/io/planar_file.h>
+#include <cellwalk/internal/io/planar_file.h>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The parser of each surface format, chosen by the extension.
+#include <cellwalk/internal/io/parse_surface.h>
 #include <cellwalk/io/surface_file.h>
 
 #include "io/files/text.h"

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_IO_MESH_SURFACE_PARSERS_H
 #define CELLWALK_IO_MESH_SURFACE_PARSERS_H
 
+#include <cellwalk/internal/io/parse_surface.h>
 #include <cellwalk/io/surface_file.h>
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // Well-known text: POLYGON and MULTIPOLYGON. Not by Boost.Geometry, whose reader reports no position in the
 // text, so that errors could not name the line.
 #include <cellwalk/internal/io/numbers.h>
-#include <cellwalk/io/planar_file.h>
+#include <cellwalk/internal/io/planar_file.h>
 
 #include <fmt/format.h>
 

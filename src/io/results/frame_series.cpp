@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The folder of frames, the names of their files, and the text of the collection.
-#include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/frame_series.h>
+#include <cellwalk/internal/io/atomic_file.h>
+#include <cellwalk/internal/io/frame_series.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The XML of a grid, with its arrays as text or as compressed base64.
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/gzip.h>
-#include <cellwalk/io/atomic_file.h>
-#include <cellwalk/io/vtu.h>
+#include <cellwalk/internal/io/vtu.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The cells and walls of a soup as VTK cells: tetrahedra, hexahedra or polyhedra.
-#include <cellwalk/io/vtu.h>
+#include <cellwalk/internal/io/vtu.h>
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The keys of a file of changes, and their groups of facets and cells.
-#include <cellwalk/io/changes_file.h>
+#include <cellwalk/internal/io/changes_file.h>
 
 #include <nlohmann/json.hpp>
 
 #include "io/files/text.h"
 #include "json_node.h"
-#include "scene_parts.h"
+#include "environment_changes.h"
 
 namespace cellwalk::io {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The keys of each part of a scene: environment, particles, catheter, walls and output.
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/scene.h>
 
 #include <nlohmann/json.hpp>
 
 #include "io/files/text.h"
 #include "json_node.h"
 #include "scene_bodies.h"
-#include "scene_parts.h"
+#include "environment_changes.h"
 
 namespace cellwalk::io {
 namespace {

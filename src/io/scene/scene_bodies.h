@@ -3,7 +3,7 @@
 #ifndef CELLWALK_IO_SCENE_SCENE_BODIES_H
 #define CELLWALK_IO_SCENE_SCENE_BODIES_H
 
-#include <cellwalk/records/scene.h>
+#include <cellwalk/internal/records/scene.h>
 
 #include "json_node.h"
 

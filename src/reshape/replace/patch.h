@@ -3,8 +3,8 @@
 #ifndef CELLWALK_RESHAPE_REPLACE_PATCH_H
 #define CELLWALK_RESHAPE_REPLACE_PATCH_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <array>
 #include <cstdint>

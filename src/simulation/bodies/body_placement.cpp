@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Where the bodies of a scene start.
 #include <cellwalk/generators/transform.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/world.h>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #define CELLWALK_SIMULATION_BODIES_CONTACT_YIELD_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstdint>
 #include <utility>

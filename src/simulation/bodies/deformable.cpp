@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The prediction along the motion of the whole, and the bound of the energy after contacts.
-#include <cellwalk/simulation/deformable.h>
+#include <cellwalk/internal/simulation/deformable.h>
 
 #include <algorithm>
 #include <cmath>

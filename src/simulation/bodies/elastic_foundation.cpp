@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Yields spread among neighbouring points of walls, and their recovery in each step.
 #include <cellwalk/internal/records/scene_shape.h>
+#include <cellwalk/internal/simulation/elastic_foundation.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/simulation/elastic_foundation.h>
 
 #include <algorithm>
 #include <array>

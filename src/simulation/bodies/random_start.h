@@ -4,7 +4,7 @@
 #define CELLWALK_SIMULATION_BODIES_RANDOM_START_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <cstdint>
 #include <vector>

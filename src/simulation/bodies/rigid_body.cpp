@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The position of a guide on its path, and the steps of thrown and guided bodies.
-#include <cellwalk/simulation/rigid_body.h>
+#include <cellwalk/internal/simulation/rigid_body.h>
 
 #include <algorithm>
 #include <cmath>

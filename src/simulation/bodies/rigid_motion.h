@@ -3,8 +3,8 @@
 #ifndef CELLWALK_SIMULATION_BODIES_RIGID_MOTION_H
 #define CELLWALK_SIMULATION_BODIES_RIGID_MOTION_H
 
+#include <cellwalk/internal/records/scene.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/records/scene.h>
 
 #include <cstddef>
 #include <span>

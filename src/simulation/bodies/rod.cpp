@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The advance of the rod, the waypoints of its tip, and the turn of its base.
-#include <cellwalk/simulation/rod.h>
+#include <cellwalk/internal/simulation/rod.h>
 
 #include <algorithm>
 #include <cmath>

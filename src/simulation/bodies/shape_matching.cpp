@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The moments of a shape, their nearest rotation, and the scaling that keeps the volume.
-#include <cellwalk/simulation/shape_matching.h>
+#include <cellwalk/internal/simulation/shape_matching.h>
 
 #include <algorithm>
 #include <cmath>

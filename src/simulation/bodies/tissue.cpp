@@ -2,8 +2,8 @@
 // Constraints of edge lengths and volumes, projected in turn, and points that follow.
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/records/scene_shape.h>
+#include <cellwalk/internal/simulation/tissue.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/simulation/tissue.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The parts of each simulated thing in their order, for reading and writing alike.
-#include <cellwalk/body/saved_body.h>
+#include <cellwalk/body/body.h>
 #include <cellwalk/internal/simulation/saved_contacts.h>
 #include <cellwalk/internal/simulation/saved_state.h>
 #include <cellwalk/internal/walk/saved_particle.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The facets and cells of each change found by position, and stitches kept until they succeed.
 #include <cellwalk/internal/records/scene_shape.h>
+#include <cellwalk/internal/simulation/change_schedule.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/simulation/change_schedule.h>
 
 #include <fmt/core.h>
 

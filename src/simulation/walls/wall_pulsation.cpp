@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The directions of points from smoothed normals, and their places at each phase.
 #include <cellwalk/internal/records/scene_shape.h>
-#include <cellwalk/simulation/wall_pulsation.h>
+#include <cellwalk/internal/simulation/wall_pulsation.h>
 
 #include <algorithm>
 #include <array>

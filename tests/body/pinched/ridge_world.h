@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_BODY_PINCHED_RIDGE_WORLD_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
 

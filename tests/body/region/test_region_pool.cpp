@@ -5,7 +5,7 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>

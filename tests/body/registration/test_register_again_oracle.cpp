@@ -3,8 +3,8 @@
 // names changed. An oracle that knows walls and moves only tells on which sides of walls they must be.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -215,8 +215,7 @@ TEST(Registration, AcceptsBodiesAtRestInWallPlanes) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 2}, {});
   Body_placement<3> placement;
   placement.position = {2, 2, 0.5};
-  const Body<3> body(snapshot, Locator<3>(snapshot),
-                     transformed(generate_body(Hexahedron_shape{1, true}), placement));
+  const Body<3> body(snapshot, Locator<3>(snapshot), transformed(hexahedron_body(1, true), placement));
   EXPECT_EQ(body.positions()[0][2], 0) << "it stands on the floor";
   EXPECT_NO_THROW(body.validate());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Faces that move in the plane of a membrane, with other faces and edges at the same vertex: all have it on
 // sides that agree. The membrane is the square [10,11] x [5,6] at z = 1; each case has its mirror image.
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 // where it goes. Where nothing touches a wall, what may not pass it is what meets it, so the same judge tells
 // of either Touch.
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/transform.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 
@@ -31,8 +31,7 @@ std::vector<Point<D>> shifted(const Body<D>& body, const Vector<D>& by) {
 Body<3> hexahedron(const Snapshot<3>& snapshot, const Point<3>& at, double side) {
   Body_placement<3> placement;
   placement.position = at;
-  return Body<3>(snapshot, Locator<3>(snapshot),
-                 transformed(generate_body(Hexahedron_shape{side, false}), placement));
+  return Body<3>(snapshot, Locator<3>(snapshot), transformed(hexahedron_body(side, false), placement));
 }
 
 TEST(BodyStep, SlidesAlongAnAxisAlignedWall) {
@@ -101,7 +100,7 @@ TEST(BodyStep, SlidesAlongAnObliqueWall) {
   const Snapshot<2> snapshot = compile(soup);
   Body_placement<2> placement;
   placement.position = {1, 1.3};
-  Body<2> body(snapshot, Locator<2>(snapshot), transformed(generate_body(Quad_shape{0.5}), placement));
+  Body<2> body(snapshot, Locator<2>(snapshot), transformed(quad_body(0.5), placement));
   Step_report<2> report;
   Body_counts counts;
   for (int k = 0; k < 160; ++k) {

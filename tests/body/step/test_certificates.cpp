@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Each certificate of a body alone, and all together, against none: the same moves, of bodies of all kinds,
 // in worlds of all kinds.
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Runs of every kind of scene that are killed at any moment and go on from their checkpoints leave the same
 // bytes as runs that are not.
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <algorithm>
 #include <chrono>

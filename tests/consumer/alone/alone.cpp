@@ -53,7 +53,7 @@ std::size_t contacts() {
   Body_placement<3> placement;
   placement.position = {1, 1, 1};
   Body<3> body(environment.snapshot(), Locator<3>(environment.snapshot()),
-               transformed(generate_body(Hexahedron_shape{0.5, true}), placement));
+               transformed(hexahedron_body(0.5, true), placement));
   std::vector<Point<3>> targets;
   for (const Point<3>& x : body.positions()) targets.push_back(x + Vector<3>{0, 0, -1});
   Step_report<3> report;

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Every public member of the classes and every function that headers declare `extern template`, so that a
 // program which inlines nothing links. check_members.py sees that none is missing. Nothing is run.
-#include <cellwalk/body/saved_body.h>
+#include <cellwalk/body/body.h>
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/environment/compiled.h>
-#include <cellwalk/environment/groups.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/environment/selection.h>
 #include <cellwalk/io/body_file.h>
-#include <cellwalk/io/changes_file.h>
 #include <cellwalk/io/ovm.h>
-#include <cellwalk/io/vtu.h>
 #include <cellwalk/loading/environment_file.h>
-#include <cellwalk/records/make_body.h>
-#include <cellwalk/simulation/change_schedule.h>
-#include <cellwalk/simulation/elastic_foundation.h>
-#include <cellwalk/simulation/tissue.h>
-#include <cellwalk/simulation/wall_pulsation.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/records/body_soup.h>
 
 #include <cstdio>
 #include <utility>
@@ -61,12 +54,7 @@ void keep_environments() {
        &Environment<D>::fill, &Environment<D>::move_vertex, &Environment<D>::insert_point,
        &Environment<D>::certify, &Environment<D>::cells_around);
 
-  keep(
-      +[](const Cell_soup<D>& s, const Soup_groups& g) { return Group_places<D>(s, g); },
-      &Group_places<D>::find,
-      +[](const Snapshot<D>& s, const Groups<D>& g) { return Lasting_groups<D>(s, g); },
-      &Lasting_groups<D>::names, &Lasting_groups<D>::now, &soup_groups<D>);
-  keep(&write_compiled<D>, &compile_to_bytes<D>, &check_compiled<D>, &write_environment<D>);
+  keep(&write_compiled<D>, &compile_to_bytes<D>, &check_compiled<D>, &write_environment<D>, &soup_groups<D>);
 
   keep(
       +[] { return Map_storage<D>(); }, &Map_storage<D>::point_of, &Map_storage<D>::vertices_of);
@@ -99,9 +87,8 @@ void keep_bodies() {
       &Body<D>::faces, &Body<D>::neighbours, &Body<D>::move_vertex, &Body<D>::refresh, &Body<D>::leave_region,
       &Body<D>::particles, &Body<D>::chain, &Body<D>::cell_of, &Body<D>::validate);
 
-  keep(&save<D>, &restore_body<D>, &transformed<D>, &make_body<D>, &rope<D>,
-       static_cast<Body_soup<D> (*)(const Catheter_shape<D>&)>(&generate_body),
-       static_cast<Body_soup<D> (*)(const Polyline_shape<D>&)>(&generate_body));
+  keep(&save<D>, &restore_body<D>, &transformed<D>, &make_body<D>, &rope<D>, &catheter_body<D>,
+       &polyline_body<D>);
 }
 
 template <int D>
@@ -118,56 +105,9 @@ void keep_reshaping() {
 }
 
 template <int D>
-void keep_simulation() {
-  keep(
-      +[](Body<D> b, const Shape_material& m) { return Deformable<D>(std::move(b), m, Vector<D>{}); },
-      &moved<Deformable<D>>, &Deformable<D>::step, &Deformable<D>::targets, &Deformable<D>::velocity,
-      &Deformable<D>::velocities, &Deformable<D>::has_arrived, &Deformable<D>::kinetic_energy,
-      &Deformable<D>::energy);
-  keep_both(&Deformable<D>::body, &Deformable<D>::body);
-
-  keep(
-      +[](const Shape_material& m) { return Shape_matching<D>({}, m); }, &moved<Shape_matching<D>>,
-      &Shape_matching<D>::material, &Shape_matching<D>::goals, &nearest_rotation<D>);
-
-  keep(
-      +[](Body<D> b) { return Rigid_body<D>(std::move(b), Vector<D>{}, Spin<D>{}); },
-      +[](Body<D> b, Guided_motion<D> g) { return Rigid_body<D>(std::move(b), std::move(g)); },
-      &moved<Rigid_body<D>>, &Rigid_body<D>::step, &Rigid_body<D>::targets, &Rigid_body<D>::velocity,
-      &Rigid_body<D>::has_arrived);
-  keep_both(&Rigid_body<D>::body, &Rigid_body<D>::body);
-
-  keep(
-      +[](const Snapshot<D>& s, Body<D> b, const Catheter<D>& c) { return Rod<D>(s, std::move(b), c, {}); },
-      &moved<Rod<D>>, &Rod<D>::at_entry, &Rod<D>::step, &Rod<D>::targets, &Rod<D>::tip,
-      &Rod<D>::length_inside, &Rod<D>::twist, &Rod<D>::waypoints, &Rod<D>::next_waypoint,
-      &Rod<D>::steps_waited, &Rod<D>::velocity, &Rod<D>::has_arrived);
-  keep_both(&Rod<D>::body, &Rod<D>::body);
-
-  keep(
-      +[](const Snapshot<D>& s, const Scene<D>& c) { return new World<D>(s, c); }, &World<D>::most_tries,
-      &World<D>::step, &World<D>::steps_done, &World<D>::particles, &World<D>::velocities, &World<D>::bodies,
-      &World<D>::entry_of, &World<D>::catheter, &World<D>::contacts, &World<D>::counts,
-      static_cast<Body_counts (World<D>::*)() const>(&World<D>::body_counts),
-      static_cast<Body_counts (World<D>::*)(std::size_t) const>(&World<D>::body_counts), &World<D>::validate,
-      &World<D>::move_walls, &World<D>::relax, &World<D>::change, &World<D>::positions, &World<D>::cell_of,
-      &World<D>::has_arrived);
-  keep(
-      +[](const Snapshot<D>& s, const Pulsation<D>& p) { return Wall_pulsation<D>(s, p, {}); },
-      &Wall_pulsation<D>::targets,
-      +[](const Snapshot<D>& s, const Soft_walls& w) { return Elastic_foundation<D>(s, w, {}); },
-      &Elastic_foundation<D>::press, &Elastic_foundation<D>::yielding, &Elastic_foundation<D>::targets,
-      &Elastic_foundation<D>::follow, &Elastic_foundation<D>::yield, &Elastic_foundation<D>::yielding_count,
-      &Elastic_foundation<D>::largest_yield, &Elastic_foundation<D>::force);
-  keep(
-      +[](const Snapshot<D>& s, const Tissue_material& m) { return Tissue<D>(s, m, {}); },
-      &Tissue<D>::targets, &Tissue<D>::follow, &Tissue<D>::follow_changes, &Tissue<D>::largest_stretch,
-      &Tissue<D>::edge_count);
-  keep(
-      &select<D>, static_cast<Point<D> (*)(const Snapshot<D>&, Half_facet)>(&centroid<D>),
-      static_cast<Point<D> (*)(const Snapshot<D>&, Cell)>(&centroid<D>),
-      +[](const Snapshot<D>& s, const Environment_changes<D>& c) { return Change_schedule<D>(s, c); },
-      &Change_schedule<D>::is_due, &Change_schedule<D>::apply);
+void keep_selections() {
+  keep(&select<D>, static_cast<Point<D> (*)(const Snapshot<D>&, Half_facet)>(&centroid<D>),
+       static_cast<Point<D> (*)(const Snapshot<D>&, Cell)>(&centroid<D>));
 }
 
 template <int D>
@@ -175,16 +115,13 @@ void keep_readers() {
   keep(&io::read_body<D>, static_cast<Environment<D> (*)(const std::string&)>(&import_environment<D>),
        static_cast<void (*)(const Snapshot<D>&, const std::vector<const Body<D>*>&,
                             const std::vector<Contact<D>>&, const std::string&)>(&draw<D>),
-       static_cast<void (*)(const std::filesystem::path&, const Cell_soup<D>&, const Soup_groups&)>(
-           &io::write_ovm<D>),
-       static_cast<void (*)(io::Atomic_file&, const Cell_soup<D>&, const Soup_groups&)>(&io::write_ovm<D>),
-       &io::vtu_of_cells<D>, &io::vtu_of_walls<D>, &io::read_changes<D>, &io::parse_changes<D>);
+       &io::write_ovm<D>);
 }
 
 }  // namespace
 
 int main() {
-  keep_environments<2>(), keep_bodies<2>(), keep_reshaping<2>(), keep_simulation<2>(), keep_readers<2>();
-  keep_environments<3>(), keep_bodies<3>(), keep_reshaping<3>(), keep_simulation<3>(), keep_readers<3>();
+  keep_environments<2>(), keep_bodies<2>(), keep_reshaping<2>(), keep_selections<2>(), keep_readers<2>();
+  keep_environments<3>(), keep_bodies<3>(), keep_reshaping<3>(), keep_selections<3>(), keep_readers<3>();
   std::printf("%d members and functions\n", kept_count);
 }

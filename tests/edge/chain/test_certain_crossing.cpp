@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What doubles prove of a segment and a triangle, judged by exact signs: in general position, some ulps off a
 // degeneracy, in it, and at the limits of the doubles.
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

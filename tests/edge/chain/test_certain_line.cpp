@@ -3,8 +3,8 @@
 // and corners, where coordinates are rounded as badly as can be, in frames much larger than the facet, and at
 // all scales. Half of the bound is too little.
 #include <cellwalk/internal/edge/certain_line.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Relinking where what it assumes does not hold, by hand: chains that pass a facet backwards, edges in the
 // plane of a wall, vertices that cross a vertex.
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
 #include <cellwalk/internal/edge/triangle.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Signs and sizes of orientations in doubles: the exact ones lie within their bounds, at all sizes.
 #include <cellwalk/internal/kernel/exact_value.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <gtest/gtest.h>
 

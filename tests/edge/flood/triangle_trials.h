@@ -5,7 +5,7 @@
 
 #include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/environment/planes.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <cmath>
 #include <numbers>

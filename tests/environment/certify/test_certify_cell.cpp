@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/certify.h>
-#include <cellwalk/kernel/random.h>
+#include <cellwalk/internal/environment/cell_check.h>
+#include <cellwalk/internal/kernel/random.h>
 
 #include <gtest/gtest.h>
 

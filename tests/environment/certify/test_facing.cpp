@@ -2,8 +2,8 @@
 // Meshes that do not conform are refused, wherever they are built, unless duplicates are kept.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/build_map.h>
 #include <cellwalk/internal/environment/flatten.h>
 #include <cellwalk/kernel/error.h>
 

@@ -2,8 +2,8 @@
 // Cells around points, found in the snapshot, against a search of all cells.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/generators/lattice_world.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/environment/gluing.h>
-#include <cellwalk/environment/split.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/cell_check.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/environment/split.h>
+#include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Nothing that is written or removed in a folder reaches a file outside.
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/durable.h>
 #include <cellwalk/internal/io/own_files.h>
-#include <cellwalk/io/atomic_file.h>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

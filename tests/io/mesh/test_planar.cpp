@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/io/build_features.h>
+#include <cellwalk/internal/io/planar_file.h>
 #include <cellwalk/io/mesh_file.h>
-#include <cellwalk/io/planar_file.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Compiled where VTK is there. Its readers judge what is written; its writers make what is read.
+#include <cellwalk/internal/io/vtu.h>
 #include <cellwalk/io/mesh_file.h>
-#include <cellwalk/io/vtu.h>
 
 #include <gtest/gtest.h>
 #include <vtkCell.h>

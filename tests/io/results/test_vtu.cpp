@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/io/frame_series.h>
-#include <cellwalk/io/vtu.h>
+#include <cellwalk/internal/io/frame_series.h>
+#include <cellwalk/internal/io/vtu.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Changes of an environment, in scene files and by themselves.
-#include <cellwalk/io/changes_file.h>
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/changes_file.h>
+#include <cellwalk/internal/io/scene.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

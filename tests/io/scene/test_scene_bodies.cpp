@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/scene.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walls that move, in scene files.
-#include <cellwalk/io/scene.h>
+#include <cellwalk/internal/io/scene.h>
 #include <cellwalk/kernel/error.h>
 
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/deformable.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/deformable.h>
 
 #include <gtest/gtest.h>
 
@@ -135,15 +135,13 @@ void expect_energy_is_bounded(const Snapshot<D>& snapshot, const Body_soup<D>& s
 }
 
 TEST(Deformable, NeverGainsKineticEnergy2) {
-  expect_energy_is_bounded<2>(rooms<2>({6, 6}, {8, 16, 27, 22}), generate_body(Polygon_shape{6, 0.3}), 1500);
+  expect_energy_is_bounded<2>(rooms<2>({6, 6}, {8, 16, 27, 22}), polygon_body(6, 0.3), 1500);
 }
 TEST(Deformable, NeverGainsKineticEnergy3) {
-  expect_energy_is_bounded<3>(rooms<3>({4, 4, 4}, {21, 42, 5, 58}),
-                              generate_body(Hexahedron_shape{0.3, false}), 1500);
+  expect_energy_is_bounded<3>(rooms<3>({4, 4, 4}, {21, 42, 5, 58}), hexahedron_body(0.3, false), 1500);
 }
 TEST(Deformable, NeverGainsKineticEnergyInAVessel) {
-  expect_energy_is_bounded<3>(test::compile(branching_vessel({})), generate_body(Icosphere_shape{0.4, 1}),
-                              100);
+  expect_energy_is_bounded<3>(test::compile(branching_vessel({})), icosphere_body(0.4, 1), 100);
 }
 
 template <int D>
@@ -174,10 +172,10 @@ void expect_bodies_come_to_rest(const Snapshot<D>& snapshot, const Body_soup<D>&
 }
 
 TEST(Deformable, ComesToRestOnTheFloor2) {
-  expect_bodies_come_to_rest<2>(rooms<2>({6, 6}, {8, 27}), generate_body(Polygon_shape{6, 0.3}));
+  expect_bodies_come_to_rest<2>(rooms<2>({6, 6}, {8, 27}), polygon_body(6, 0.3));
 }
 TEST(Deformable, ComesToRestOnTheFloor3) {
-  expect_bodies_come_to_rest<3>(rooms<3>({3, 3, 3}, {13}), generate_body(Hexahedron_shape{0.3, false}));
+  expect_bodies_come_to_rest<3>(rooms<3>({3, 3, 3}, {13}), hexahedron_body(0.3, false));
 }
 
 TEST(Deformable, FliesStraightAndTurnsEvenly) {
@@ -186,9 +184,8 @@ TEST(Deformable, FliesStraightAndTurnsEvenly) {
     const Locator<3> locator(snapshot);
     Body_placement<3> placement;
     placement.position = {2, 10, 10};
-    Deformable<3> d(
-        Body<3>(snapshot, locator, transformed(generate_body(Hexahedron_shape{1, false}), placement)),
-        material, {1, 0.5, 0.25}, {0, 0, std::numbers::pi / 2});
+    Deformable<3> d(Body<3>(snapshot, locator, transformed(hexahedron_body(1, false), placement)), material,
+                    {1, 0.5, 0.25}, {0, 0, std::numbers::pi / 2});
     Dynamics_options<3> conditions;
     conditions.time_step = 0.01;
     Step_report<3> report;
@@ -211,9 +208,8 @@ TEST(Deformable, BouncesWithItsRestitution) {
   for (const double restitution : {0.0, 0.5, 1.0}) {
     Body_placement<3> placement;
     placement.position = {2, 2, 2};
-    Deformable<3> d(
-        Body<3>(snapshot, locator, transformed(generate_body(Hexahedron_shape{0.5, false}), placement)), {},
-        {0, 0, -1}, {});
+    Deformable<3> d(Body<3>(snapshot, locator, transformed(hexahedron_body(0.5, false), placement)), {},
+                    {0, 0, -1}, {});
     Dynamics_options<3> conditions;
     conditions.time_step = 0.02;
     conditions.restitution = restitution;
@@ -233,8 +229,7 @@ TEST(Deformable, FrictionSlowsItDown) {
   for (const double friction : {0.0, 0.1, 1.0}) {
     Body_placement<2> placement;
     placement.position = {1, 0.5};
-    Deformable<2> d(Body<2>(snapshot, locator, transformed(generate_body(Quad_shape{0.5}), placement)), {},
-                    {1, 0}, {});
+    Deformable<2> d(Body<2>(snapshot, locator, transformed(quad_body(0.5), placement)), {}, {1, 0}, {});
     Dynamics_options<2> conditions;
     conditions.restitution = 0.3;
     conditions.friction = friction;
@@ -257,7 +252,7 @@ TEST(Deformable, FrictionSlowsItDown) {
 
 TEST(Deformable, SoftBodiesAreDeformedByWalls) {
   const Snapshot<3> snapshot = rooms<3>({3, 3, 3});
-  const Body_soup<3> shape = generate_body(Icosphere_shape{0.4, 1});
+  const Body_soup<3> shape = icosphere_body(0.4, 1);
   Dynamics_options<3> conditions;
   conditions.time_step = 0.01;
   conditions.gravity = {0, 0, -9.81};
@@ -278,8 +273,7 @@ TEST(Deformable, IsRefusedAndStaysWhereItIsIfItsMotionIsNotFinite) {
   Body_placement<2> placement;
   placement.position = {1.5, 1.5};
   for (const double huge : {1e200, 1e308}) {
-    Deformable<2> d(Body<2>(snapshot, locator, transformed(generate_body(Quad_shape{0.5}), placement)), {},
-                    {1, 0}, {});
+    Deformable<2> d(Body<2>(snapshot, locator, transformed(quad_body(0.5), placement)), {}, {1, 0}, {});
     Dynamics_options<2> conditions;
     conditions.gravity = {huge, huge};
     conditions.time_step = 1e150;
@@ -295,8 +289,7 @@ TEST(Deformable, BodiesOfOneVertexOrOneEdgeFlyToo) {
   const Snapshot<3> snapshot = rooms<3>({3, 3, 3}, {13});
   std::size_t contacts = 0;
   for (const Body_soup<3>& shape :
-       {generate_body(Polyline_shape<3>{{{0, 0, 0}}}), generate_body(Catheter_shape<3>{0.4, 2}),
-        generate_body(Catheter_shape<3>{0.6, 5})}) {
+       {polyline_body<3>({{0, 0, 0}}), catheter_body<3>(0.4, 2), catheter_body<3>(0.6, 5)}) {
     auto bodies = thrown<3>(snapshot, shape, {Shape_mode::linear, 0.5, 0.5, true}, 3, 3, 6);
     Dynamics_options<3> conditions;
     conditions.time_step = 0.02;
@@ -310,7 +303,7 @@ TEST(Deformable, GivesTheSameBitsWithEveryCompiler) {
   std::uint64_t h = 0;
   std::size_t contacts = 0;
   for (const Shape_material& material : materials) {
-    auto bodies = thrown<3>(snapshot, generate_body(Hexahedron_shape{0.3, false}), material, 3, 3, 8);
+    auto bodies = thrown<3>(snapshot, hexahedron_body(0.3, false), material, 3, 3, 8);
     Dynamics_options<3> conditions;
     conditions.time_step = 0.02;
     conditions.gravity = {0, 0, -3};

@@ -2,9 +2,9 @@
 // Deformable bodies and a catheter in a real vessel.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/io/surface_file.h>
 #include <cellwalk/meshing/tetrahedralize.h>
-#include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,7 @@ TEST(DeformableInAnAneurysm, KeepsItsInvariants) {
     start.material = material;
     scene.bodies.push_back(start);
   }
-  World<3> world(snapshot, scene,
-                 {generate_body(Hexahedron_shape{1, false}), generate_body(Icosphere_shape{0.7, 1})});
+  World<3> world(snapshot, scene, {hexahedron_body(1, false), icosphere_body(0.7, 1)});
   std::size_t contacts = 0, of_edges = 0;
   for (int i = 0; i < 300; ++i) {
     world.step();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walls that yield to a body which is pressed against them, and recover.
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/simulation/elastic_foundation.h>
+#include <cellwalk/internal/simulation/elastic_foundation.h>
 
 #include <gtest/gtest.h>
 

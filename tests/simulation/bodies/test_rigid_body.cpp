@@ -14,23 +14,23 @@ namespace {
 
 TEST(RigidBody, KeepsItsInvariantsInAGrid2) {
   const Snapshot<2> snapshot = rooms<2>({8, 8}, {18, 21, 42, 45, 28});
-  expect_flights_are_sound<2>(snapshot, generate_body(Polygon_shape{5, 0.4}), 12, 800);
+  expect_flights_are_sound<2>(snapshot, polygon_body(5, 0.4), 12, 800);
 }
 
 TEST(RigidBody, KeepsItsInvariantsInAGrid3) {
   const Snapshot<3> snapshot = rooms<3>({4, 4, 4}, {21, 42, 5, 58});
-  expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 200);
+  expect_flights_are_sound<3>(snapshot, hexahedron_body(0.5, false), 12, 200);
 }
 
 TEST(RigidBody, KeepsItsInvariantsInAVessel) {
   const Snapshot<3> snapshot = compile(branching_vessel({}));
-  expect_flights_are_sound<3>(snapshot, generate_body(Hexahedron_shape{0.5, false}), 12, 300);
+  expect_flights_are_sound<3>(snapshot, hexahedron_body(0.5, false), 12, 300);
 }
 
 TEST(RigidBody, KeepsFacesFree) {
   // Boxes larger than the solid cells between which they fly.
   const Snapshot<3> snapshot = rooms<3>({8, 8, 8}, {155, 236, 292, 349, 100});
-  const Body_soup<3> shape = generate_body(Box_shape{{1.7, 1.6, 1.5}, {1, 1, 1}, true});
+  const Body_soup<3> shape = box_body({1.7, 1.6, 1.5}, {1, 1, 1}, true);
   Body_options options;
   options.sweep.sweep = Sweep::faces;
   const Flown flown = fly<3>(snapshot, shape, 8, 300, 0.05, 5, 3, true, options);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Catheters: the shape of a rod in free space, and what walls make of it.
 #include <cellwalk/generators/vessel.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <gtest/gtest.h>
 

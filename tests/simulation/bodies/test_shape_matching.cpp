@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Goals of shape matching against what defines them: exact on maps of their kind, nearest among rotations,
 // without momentum.
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/shape_matching.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/shape_matching.h>
 
 #include <gtest/gtest.h>
 

@@ -65,12 +65,8 @@ Scene<D> scene_of_all() {
   return scene;
 }
 
-Body_soup<2> small_body(std::integral_constant<int, 2>) { return generate_body(Quad_shape{0.3}); }
-Body_soup<3> small_body(std::integral_constant<int, 3>) {
-  Hexahedron_shape shape;
-  shape.side = 0.3;
-  return generate_body(shape);
-}
+Body_soup<2> small_body(std::integral_constant<int, 2>) { return quad_body(0.3); }
+Body_soup<3> small_body(std::integral_constant<int, 3>) { return hexahedron_body(0.3); }
 
 template <int D>
 void go_on(const Snapshot<D>& snapshot) {

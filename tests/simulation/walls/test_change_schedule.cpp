@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Facets and cells by parts of space, and changes of them at steps.
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/simulation/change_schedule.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/simulation/change_schedule.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walls that pulsate, by themselves and in a world.
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/generators/implicit.h>
 #include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/generators/implicit.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/simulation/wall_pulsation.h>
+#include <cellwalk/internal/simulation/world.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/random.h>
-#include <cellwalk/simulation/wall_pulsation.h>
-#include <cellwalk/simulation/world.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #define CELLWALK_INTERNAL_BODY_BODY_ACCESS_H
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/kernel/box.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_EDGE_CLOSING_FACE_H
 #define CELLWALK_INTERNAL_EDGE_CLOSING_FACE_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 
 #include <array>
 

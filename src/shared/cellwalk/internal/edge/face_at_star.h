@@ -4,7 +4,7 @@
 #ifndef CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
 #define CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 #include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/edge/moving_star.h>
 

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 #define CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 
 #include <cstddef>
 #include <optional>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_EDGE_WEDGE_H
 #define CELLWALK_INTERNAL_EDGE_WEDGE_H
 
-#include <cellwalk/edge/face.h>
+#include <cellwalk/internal/edge/face.h>
 
 #include <optional>
 

@@ -5,7 +5,7 @@
 #define CELLWALK_INTERNAL_ENVIRONMENT_CELL_PATCHER_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <cstdint>
 #include <optional>

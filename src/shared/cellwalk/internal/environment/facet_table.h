@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_FACET_TABLE_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_FACET_TABLE_H
 
-#include <cellwalk/environment/gluing.h>
+#include <cellwalk/internal/environment/gluing.h>
 
 #include <boost/container/small_vector.hpp>
 

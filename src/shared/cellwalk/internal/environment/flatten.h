@@ -3,8 +3,9 @@
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_FLATTEN_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_FLATTEN_H
 
-#include <cellwalk/environment/gluing.h>
 #include <cellwalk/environment/map.h>
+#include <cellwalk/internal/environment/build_map.h>
+#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <vector>

@@ -5,6 +5,7 @@
 #define CELLWALK_INTERNAL_ENVIRONMENT_VERTEX_MOVER_H
 
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/environment/cell_check.h>
 
 #include <cstdint>
 #include <span>

@@ -4,8 +4,8 @@
 #ifndef CELLWALK_INTERNAL_IO_CSV_H
 #define CELLWALK_INTERNAL_IO_CSV_H
 
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/numbers.h>
-#include <cellwalk/io/atomic_file.h>
 
 #include <concepts>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_INTERNAL_IO_GZIP_H
 #define CELLWALK_INTERNAL_IO_GZIP_H
 
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 
 #include <filesystem>
 #include <memory>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_IO_JSON_FILE_H
 #define CELLWALK_INTERNAL_IO_JSON_FILE_H
 
-#include <cellwalk/io/atomic_file.h>
+#include <cellwalk/internal/io/atomic_file.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_INTERNAL_IO_REPRO_FILE_H
 #define CELLWALK_INTERNAL_IO_REPRO_FILE_H
 
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/records/repro.h>
-#include <cellwalk/io/atomic_file.h>
 
 #include <filesystem>
 #include <string>

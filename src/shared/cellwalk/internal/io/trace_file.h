@@ -3,8 +3,8 @@
 #ifndef CELLWALK_INTERNAL_IO_TRACE_FILE_H
 #define CELLWALK_INTERNAL_IO_TRACE_FILE_H
 
+#include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/records/body_trace.h>
-#include <cellwalk/io/atomic_file.h>
 
 #include <filesystem>
 #include <string>

@@ -8,7 +8,7 @@
 #ifndef CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 #define CELLWALK_INTERNAL_KERNEL_BYTE_ARCHIVE_H
 
-#include <cellwalk/kernel/counts.h>
+#include <cellwalk/internal/kernel/counts.h>
 #include <cellwalk/kernel/error.h>
 
 #include <array>

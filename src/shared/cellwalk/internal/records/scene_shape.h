@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 #define CELLWALK_INTERNAL_RECORDS_SCENE_SHAPE_H
 
-#include <cellwalk/records/environment_change.h>
+#include <cellwalk/internal/records/environment_change.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #define CELLWALK_INTERNAL_SIMULATION_BODY_TRACE_RECORDER_H
 
 #include <cellwalk/internal/records/body_trace.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_SIMULATION_SAVED_CONTACTS_H
 #define CELLWALK_INTERNAL_SIMULATION_SAVED_CONTACTS_H
 
-#include <cellwalk/simulation/run_contact.h>
+#include <cellwalk/internal/simulation/run_contact.h>
 
 #include <cmath>
 

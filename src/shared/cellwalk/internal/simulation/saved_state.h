@@ -5,10 +5,10 @@
 #define CELLWALK_INTERNAL_SIMULATION_SAVED_STATE_H
 
 #include <cellwalk/internal/kernel/byte_archive.h>
-#include <cellwalk/simulation/elastic_foundation.h>
-#include <cellwalk/simulation/tissue.h>
-#include <cellwalk/simulation/wall_pulsation.h>
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/elastic_foundation.h>
+#include <cellwalk/internal/simulation/tissue.h>
+#include <cellwalk/internal/simulation/wall_pulsation.h>
+#include <cellwalk/internal/simulation/world.h>
 
 namespace cellwalk::detail {
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_SIMULATION_WORLD_PART_H
 #define CELLWALK_INTERNAL_SIMULATION_WORLD_PART_H
 
-#include <cellwalk/simulation/world.h>
+#include <cellwalk/internal/simulation/world.h>
 
 #include <cstddef>
 #include <string>
