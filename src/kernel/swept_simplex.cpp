@@ -3,7 +3,6 @@
 #include <cellwalk/internal/kernel/swept_simplex.h>
 
 #include <algorithm>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -145,10 +144,13 @@ std::size_t corners_used(const std::vector<Ring>& weights) {
       std::count_if(weights.begin(), weights.end(), [](const Ring& w) { return !CGAL::is_zero(w); }));
 }
 
-bool is_before(const Swept_hit& a, const Swept_hit& b) {
-  if (const auto order = a.time <=> b.time; order != 0) return order < 0;
-  return std::pair(corners_used(a.feature), corners_used(a.wall)) <
-         std::pair(corners_used(b.feature), corners_used(b.wall));
+void keep_first(std::optional<Collision>& first, Collision next) {
+  const auto is_before = [](const Collision& a, const Collision& b) {
+    if (const auto order = a.time <=> b.time; order != 0) return order < 0;
+    return std::pair(corners_used(a.feature_weights), corners_used(a.wall_weights)) <
+           std::pair(corners_used(b.feature_weights), corners_used(b.wall_weights));
+  };
+  if (!first || is_before(next, *first)) first = std::move(next);
 }
 
 template <int D>
@@ -259,14 +261,14 @@ Encounter Swept_simplex<D>::meet(std::span<const Point<D>> feature, Predicate_co
 }
 
 template <int D>
-Swept_hit Swept_simplex<D>::first_hit(std::span<const Point<D>> feature) const {
-  std::optional<Swept_hit> first;
+Collision Swept_simplex<D>::first_hit(std::span<const Point<D>> feature) const {
+  std::optional<Collision> first;
   for (const Place& x : part_in<D>(corners_, sense_, feature)) {
     const Ring moving = x.values[0] + x.values[1];
     if (CGAL::is_zero(moving)) continue;
-    Swept_hit hit{Fraction(x.values[1], moving), {moving}, x.weights};
-    hit.wall.insert(hit.wall.end(), x.values.begin() + 2, x.values.end());
-    if (!first || is_before(hit, *first)) first = std::move(hit);
+    std::vector<Ring> wall_weights{moving};
+    wall_weights.insert(wall_weights.end(), x.values.begin() + 2, x.values.end());
+    keep_first(first, {Fraction(x.values[1], moving), std::move(wall_weights), x.weights});
   }
   return *first;
 }

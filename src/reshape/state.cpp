@@ -88,10 +88,10 @@ bool Reshaping_state<D>::decide(const Point<D>& from, std::uint32_t point, bool 
   }
   const Moving_star<D> star(mover.snapshot(), point, from, mover.star(), counts.walk);
   counts.walls += star.walls().size();
-  const Obstruction met = trial.run(star, mover.star(), any);
-  if (met.meeting == Encounter::apart) return true;
-  result.end = met.meeting == Encounter::hit ? Move_end::contact : Move_end::touch;
-  if (met.hit) result.hit = to_wall_hit(met, star, groups);
+  if (trial.run(star, mover.star(), any)) return true;
+  const auto& collision = trial.collision();
+  result.end = collision ? Move_end::contact : Move_end::touch;
+  if (collision) result.hit = to_wall_hit(*collision, star, groups);
   return false;
 }
 

@@ -34,7 +34,7 @@ struct Reshaping_state {
         merger(transaction, toggle) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not name the resident that
-  /// is met. nothing: it stays in any case.
+  /// is met, and a contact ends as a touch. nothing: it stays in any case.
   enum class Attempt : std::uint8_t { move, whether, nothing };
   Vertex_result<D> attempt(std::uint32_t point, const Point<D>& target, Attempt kind, bool is_first = false);
   bool decide(const Point<D>& from, std::uint32_t point, bool any, Vertex_result<D>& result);

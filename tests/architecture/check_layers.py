@@ -55,7 +55,8 @@ PREDICATE = re.compile(
 GIVEN_UP = {"Wall_contact": "Contact", "rounded_time": "Contact::time", "Contact_policy": "Step_rule", "Edge_rule": "Step_rule",
             "Change_result": "Outcome", "peel": "split_vertex", "mean_of": "centroid", "Told": "State_request", "Stand_in": "Remote_body",
             "elsewhere_": "remote_bodies_", "hindrance": "severity, why_not_shared", "find_out_if_apart": "update_is_apart",
-            "Way_within": "Path_within_cells", "any_way": "any_path", "Pointed": "With_points", "Attentive_wait": "Interruptible_wait"}
+            "Way_within": "Path_within_cells", "any_way": "any_path", "Pointed": "With_points", "Attentive_wait": "Interruptible_wait",
+            "Swept_hit": "Collision", "Star_block": "Collision", "Cells_of_vertex": "Followed_vertex", "Followed_end": "Followed_vertex"}
 GIVEN_UP_WORD = re.compile(r"(?<!\w)(" + "|".join(GIVEN_UP) + r")(?!\w)")
 # What makes a std::ranges::subrange, which clang 14 cannot compile with GCC's library.
 SUBRANGE = re.compile(

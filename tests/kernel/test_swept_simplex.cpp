@@ -43,20 +43,21 @@ test::Fraction sum_of(const std::vector<Ring>& weights) {
 
 /// The point with these weights is the same whether it is made of the wall at that time or of the set.
 template <int D>
-void expect_one_point(const detail::Swept_hit& hit, std::span<const Point<D>> simplex,
+void expect_one_point(const detail::Collision& hit, std::span<const Point<D>> simplex,
                       std::span<const Point<D>> set) {
   const test::Fraction time = test::to_fraction(to_rational(hit.time));
   for (std::size_t k = 0; k < D; ++k) {
     test::Fraction of_wall = 0, of_set = 0;
-    for (std::size_t i = 0; i < hit.wall.size(); ++i) {
-      const test::Fraction w = exact(hit.wall[i]);
+    for (std::size_t i = 0; i < hit.wall_weights.size(); ++i) {
+      const test::Fraction w = exact(hit.wall_weights[i]);
       const test::Fraction x = i > 0 ? test::Fraction(simplex[i + 1][k])
                                      : test::Fraction(test::Fraction(simplex[0][k]) * (1 - time) +
                                                       test::Fraction(simplex[1][k]) * time);
       of_wall += w * x;
     }
-    for (std::size_t i = 0; i < set.size(); ++i) of_set += exact(hit.feature[i]) * test::Fraction(set[i][k]);
-    EXPECT_TRUE(of_wall * sum_of(hit.feature) == of_set * sum_of(hit.wall));
+    for (std::size_t i = 0; i < set.size(); ++i)
+      of_set += exact(hit.feature_weights[i]) * test::Fraction(set[i][k]);
+    EXPECT_TRUE(of_wall * sum_of(hit.feature_weights) == of_set * sum_of(hit.wall_weights));
   }
 }
 
@@ -106,7 +107,7 @@ void compare(bool generic, std::map<std::pair<std::size_t, Relation>, int>& seen
     }
     if (expected != Relation::hit) continue;
     EXPECT_TRUE(swept.reaches(set, counts));
-    const detail::Swept_hit hit = swept.first_hit(set);
+    const detail::Collision hit = swept.first_hit(set);
     EXPECT_TRUE(test::to_fraction(to_rational(hit.time)) == *test::first_time<D>(simplex, set));
     expect_one_point<D>(hit, simplex, set);
   }
@@ -162,10 +163,10 @@ TEST(SweptSimplex, HitsAreOrderedByTheLowestFeatures) {
   const Swept_simplex<2> swept({0, 0}, {4, 0}, {Point<2>{2, 3}}, counts);
   const std::vector<Point<2>> segment{{1, 0}, {2, 1}};
   ASSERT_EQ(swept.meet(segment, counts), Encounter::hit);
-  const detail::Swept_hit hit = swept.first_hit(segment);
+  const detail::Collision hit = swept.first_hit(segment);
   EXPECT_EQ(hit.time, Fraction(Ring(1), Ring(4)));
-  EXPECT_EQ(detail::corners_used(hit.wall), 1u);
-  EXPECT_EQ(detail::corners_used(hit.feature), 1u);
+  EXPECT_EQ(detail::corners_used(hit.wall_weights), 1u);
+  EXPECT_EQ(detail::corners_used(hit.feature_weights), 1u);
 }
 
 }  // namespace

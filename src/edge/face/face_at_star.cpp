@@ -93,7 +93,7 @@ class Passing_vertex {
   }
 
   /// \pre draws(wall)
-  Star_block block(std::size_t wall) const {
+  Collision collision(std::size_t wall) const {
     const auto& [p, q, r] = corners_;
     const Ring before = Exact_value::orientation(p, q, r, star_.from());
     const Ring after = Exact_value::orientation(p, q, r, star_.to());
@@ -101,7 +101,7 @@ class Passing_vertex {
     for (std::size_t k = 0; k < 3; ++k)
       weights.push_back(CGAL::abs(
           Exact_value::orientation(star_.from(), star_.to(), corners_[(k + 1) % 3], corners_[(k + 2) % 3])));
-    return {wall, {Fraction(before, before - after), {Ring(1), Ring(0), Ring(0)}, std::move(weights)}};
+    return {Fraction(before, before - after), {Ring(1), Ring(0), Ring(0)}, std::move(weights), wall};
   }
 
  private:
@@ -133,11 +133,11 @@ class Passing_vertex {
 
 }  // namespace
 
-std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
-                                                const std::array<Point<3>, 3>& corners) {
+std::optional<Collision> face_passed_by_vertex(const Moving_star<3>& star,
+                                               const std::array<Point<3>, 3>& corners) {
   const Passing_vertex vertex(star, corners);
   for (std::size_t w = 0; w < star.walls().size(); ++w)
-    if (vertex.draws(star.walls()[w])) return vertex.block(w);
+    if (vertex.draws(star.walls()[w])) return vertex.collision(w);
   return {};
 }
 
@@ -149,8 +149,7 @@ Face_at_star face_at_star(const Moving_star<3>& star, const std::array<Particle<
   const Triangle_in_plane triangle(points, star.counts());
   Resting_face face(star, triangle, before);
   for (std::size_t w = 0; w < star.walls().size(); ++w)
-    if (!face.follow(star.walls()[w]))
-      return {false, Star_block{w, star.walls()[w].swept.first_hit(points)}, {}};
+    if (!face.follow(star.walls()[w])) return {false, star.first_hit(w, points), {}};
   Face_counts counts;
   const Face_registration found =
       stand_face(star.snapshot(), p, q, r, chains, face.walls(), Known::binding, counts);

@@ -55,7 +55,7 @@ std::optional<std::vector<Range>> limits(const Star_cut<D>& open, const Cut_at<D
 template <int D>
 class Edge_search {
  public:
-  Edge_search(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q)
+  Edge_search(const Moving_star<D>& star, const Followed_vertex<D>& p, const Followed_vertex<D>& q)
       : star_(star),
         snapshot_(star.snapshot()),
         still_(star, p.before.position, q.before.position),
@@ -72,10 +72,10 @@ class Edge_search {
     std::optional<Cut_at<D>> here(std::in_place, still_, times_[0], p_.before.cell);
     std::set<Chain_class> states;
     if (auto start = class_of(here->cut, before)) states.insert(std::move(*start));
-    const Fraction end = std::min(last_time(p_), last_time(q_));
+    const Fraction end = std::min(p_.until(), q_.until());
     for (std::size_t k = 0; k + 1 < times_.size() && times_[k] < end; ++k) {
       const Fraction middle = time_between(times_[k], times_[k + 1]);
-      const Cell first = p_.cells.at(middle), last = q_.cells.at(middle);
+      const Cell first = p_.cell_at(middle), last = q_.cell_at(middle);
       const Cut_at<D> open(still_, middle, first);
       std::optional<Cut_at<D>> next(std::in_place, still_, times_[k + 1], first);
       const auto from = limits(open.cut, *here), to = limits(open.cut, *next);
@@ -86,7 +86,7 @@ class Edge_search {
         if (auto closed = closed_by(next->cut, open.cut, *to, chain)) next_states.insert(std::move(*closed));
       found_.clear();
       if (next_states.empty()) {
-        result.block = block(*here, times_[k]);
+        result.collision = collision(*here, times_[k]);
         return result;
       }
       states = std::move(next_states);
@@ -100,16 +100,11 @@ class Edge_search {
         ends.emplace_back(states.size() > 1 ? order_of(here->cut, state) : Order{}, word);
     std::ranges::sort(ends, {}, &std::pair<Order, Chain>::first);
     result.choices = ends.size();
-    result.is_free = !ends.empty();
-    if (result.is_free) result.chain = ends[choice % ends.size()].second;
+    if (!ends.empty()) result.chain = ends[choice % ends.size()].second;
     return result;
   }
 
  private:
-  /// Until which the cells of an end are known.
-  static Fraction last_time(const Followed_end<D>& end) {
-    return end.cells.stays.empty() ? Fraction(0) : end.cells.stays.back().until;
-  }
   /// Adds the times at which the edge passes a ridge that has the vertex.
   void add_ridges() {
     std::set<std::uint32_t> seen;
@@ -222,9 +217,9 @@ class Edge_search {
   /// A word of facets of a class at the end of the move, between the cells of the ends.
   bool find_word(const Star_cut<D>& cut, const Chain_class& state, Chain& chain) const {
     Chain word;
-    std::size_t cell = cut.number_of(p_.now.cell);
+    std::size_t cell = cut.number_of(p_.end);
     for (std::size_t k = 0; k <= cut.pieces(); ++k) {
-      std::size_t next = cut.number_of(q_.now.cell);
+      std::size_t next = cut.number_of(q_.end);
       if (k < cut.pieces()) {
         // It stays where it is as long as it can.
         if (cell < cut.cell_count() && cut.along(k)[cell] == state[k]) continue;
@@ -266,16 +261,14 @@ class Edge_search {
     return order;
   }
 
-  /// The wall at the vertex that meets the edge at a time with the lowest features.
-  std::optional<Star_block> block(const Cut_at<D>& here, const Fraction& time) const {
-    std::optional<Star_block> first;
+  /// The collision at a time with the wall at the vertex that meets the edge with the lowest features.
+  std::optional<Collision> collision(const Cut_at<D>& here, const Fraction& time) const {
+    std::optional<Collision> first;
     for (const auto& [f, span] : here.cut.walls()) {
       if (!star_.has(f)) continue;
       for (const Fraction& t : {span.low, span.high}) {
-        const std::size_t wall = star_.wall_of(f);
-        std::vector<Ring> feature{t.denominator() - t.numerator(), t.numerator()};
-        Star_block next{wall, hit_at<D>(star_, wall, time, still_.at(t), std::move(feature))};
-        if (!first || is_before(next.hit, first->hit)) first = std::move(next);
+        std::vector<Ring> weights{t.denominator() - t.numerator(), t.numerator()};
+        keep_first(first, collision_at<D>(star_, star_.wall_of(f), time, still_.at(t), std::move(weights)));
       }
     }
     return first;
@@ -284,7 +277,7 @@ class Edge_search {
   const Moving_star<D>& star_;
   const Snapshot<D>& snapshot_;
   Still_segment<D> still_;
-  const Followed_end<D>&p_, &q_;
+  const Followed_vertex<D>&p_, &q_;
   std::vector<Fraction> times_;
   std::set<Chain_class> found_;
 };
@@ -292,14 +285,14 @@ class Edge_search {
 }  // namespace
 
 template <int D>
-Followed_edge follow_edge(const Moving_star<D>& star, const Followed_end<D>& p, const Followed_end<D>& q,
-                          const Chain& before, std::size_t choice) {
+Followed_edge follow_edge(const Moving_star<D>& star, const Followed_vertex<D>& p,
+                          const Followed_vertex<D>& q, const Chain& before, std::size_t choice) {
   return Edge_search<D>(star, p, q).run(before, choice);
 }
 
-template Followed_edge follow_edge<2>(const Moving_star<2>&, const Followed_end<2>&, const Followed_end<2>&,
-                                      const Chain&, std::size_t);
-template Followed_edge follow_edge<3>(const Moving_star<3>&, const Followed_end<3>&, const Followed_end<3>&,
-                                      const Chain&, std::size_t);
+template Followed_edge follow_edge(const Moving_star<2>&, const Followed_vertex<2>&,
+                                   const Followed_vertex<2>&, const Chain&, std::size_t);
+template Followed_edge follow_edge(const Moving_star<3>&, const Followed_vertex<3>&,
+                                   const Followed_vertex<3>&, const Chain&, std::size_t);
 
 }  // namespace cellwalk::detail

@@ -22,8 +22,7 @@ class Vertex_search {
     complete_times(times_);
   }
 
-  Followed_vertex run(std::size_t choice, bool to_dead_end) {
-    Followed_vertex result;
+  Followed_vertex<D> run(std::size_t choice, bool to_dead_end) {
     layers_.push_back({Cell_class{{p_.cell}, {}}});
     std::size_t most = 1;
     for (std::size_t k = 0; k < times_.size(); ++k) {
@@ -39,16 +38,15 @@ class Vertex_search {
     }
     if (to_dead_end && !dead_ends_.empty()) {
       const auto [layer, number] = dead_ends_[choice % dead_ends_.size()];
-      result.block = block(std::span(&layers_[layer][number], 1), times_[layer]);
-      result.cells = way(layer, number, choice);
+      Followed_vertex<D> result = way(layer, number, choice);
+      result.collision = collision(std::span(&layers_[layer][number], 1), times_[layer]);
       return result;
     }
     const std::size_t last = layers_.size() - 1;
-    result.is_free = last == times_.size();
+    Followed_vertex<D> result = way(last, choice % layers_.back().size(), choice);
     result.choices = most;
     result.dead_ends = dead_ends_.size();
-    result.cells = way(last, choice % layers_.back().size(), choice);
-    if (!result.is_free) result.block = block(layers_.back(), times_[last]);
+    if (!result.is_free()) result.collision = collision(layers_.back(), times_[last]);
     return result;
   }
 
@@ -118,37 +116,37 @@ class Vertex_search {
 
   /// A way through the layers up to a class of one: where there are several classes, that with the number of
   /// the choice, modulo theirs.
-  Cells_of_vertex way(std::size_t layer, std::size_t number, std::size_t choice) const {
-    Cells_of_vertex cells;
+  Followed_vertex<D> way(std::size_t layer, std::size_t number, std::size_t choice) const {
+    Followed_vertex<D> result;
+    result.before = p_;
     for (std::size_t k = layer; k > 0; --k) {
       const Cell_class& here = layers_[k][number];
       const bool has_own = std::ranges::find(here.cells, p_.cell) != here.cells.end();
       const Cell cell = has_own ? p_.cell : here.cells.front();
       if (k == times_.size())
-        cells.end = cell;
+        result.end = cell;
       else
-        cells.stays.push_back({cell, times_[k]});
+        result.stays.push_back({cell, times_[k]});
       number = here.parents[choice % here.parents.size()];
     }
-    std::ranges::reverse(cells.stays);
-    return cells;
+    std::ranges::reverse(result.stays);
+    return result;
   }
 
-  /// The wall that holds the particle, in some classes until then, at a time with its lowest feature.
-  std::optional<Star_block> block(std::span<const Cell_class> classes, const Fraction& time) const {
+  /// The collision at a time with the wall that holds the particle, in some classes until then, with its
+  /// lowest feature.
+  std::optional<Collision> collision(std::span<const Cell_class> classes, const Fraction& time) const {
     const Moving_star<D>& star = clock_.star();
     std::vector<Cell> last;
     for (const Cell_class& one : classes) last.insert(last.end(), one.cells.begin(), one.cells.end());
-    std::optional<Star_block> first;
+    std::optional<Collision> first;
     for (const Cell c : linked_at(std::move(last), time)) {
       const Cell_view<D> cell = snapshot_.view(c);
       for (std::size_t i = 0; i < cell.facet_count(); ++i) {
         const Half_facet f = Snapshot<D>::half_facet(c, i);
         if (!snapshot_.is_impassable(f) || !has_point(cell, i, star.vertex())) continue;
         if (!clock_.holds_in_facet(cell, i, p_.position, time)) continue;
-        const std::size_t wall = star.wall_of(f);
-        Star_block next{wall, hit_at<D>(star, wall, time, {exact<D>(p_.position)}, {Ring(1)})};
-        if (!first || is_before(next.hit, first->hit)) first = std::move(next);
+        keep_first(first, collision_at<D>(star, star.wall_of(f), time, {exact<D>(p_.position)}, {Ring(1)}));
       }
     }
     return first;
@@ -165,12 +163,12 @@ class Vertex_search {
 }  // namespace
 
 template <int D>
-Followed_vertex follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice,
-                              bool to_dead_end) {
+Followed_vertex<D> follow_vertex(const Moving_star<D>& star, const Particle<D>& p, std::size_t choice,
+                                 bool to_dead_end) {
   return Vertex_search<D>(star, p).run(choice, to_dead_end);
 }
 
-template Followed_vertex follow_vertex<2>(const Moving_star<2>&, const Particle<2>&, std::size_t, bool);
-template Followed_vertex follow_vertex<3>(const Moving_star<3>&, const Particle<3>&, std::size_t, bool);
+template Followed_vertex<2> follow_vertex(const Moving_star<2>&, const Particle<2>&, std::size_t, bool);
+template Followed_vertex<3> follow_vertex(const Moving_star<3>&, const Particle<3>&, std::size_t, bool);
 
 }  // namespace cellwalk::detail

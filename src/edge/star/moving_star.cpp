@@ -132,16 +132,17 @@ Star_meeting Moving_star<D>::meet(std::span<const Point<D>> feature, bool locate
       continue;
     }
     result.meeting = Encounter::hit;
-    if (!locates) {
-      result.wall = w;
-      return result;
-    }
-    Swept_hit hit = swept.first_hit(feature);
-    if (result.hit && !is_before(hit, *result.hit)) continue;
-    result.wall = w;
-    result.hit = std::move(hit);
+    if (!locates) return result;
+    keep_first(result.collision, first_hit(w, feature));
   }
   return result;
+}
+
+template <int D>
+Collision Moving_star<D>::first_hit(std::size_t wall, std::span<const Point<D>> feature) const {
+  Collision collision = walls_[wall].swept.first_hit(feature);
+  collision.wall = wall;
+  return collision;
 }
 
 template <int D>

@@ -140,8 +140,8 @@ Ring_vector<D> Star_clock<D>::vertex_at(const Fraction& time) const {
 }
 
 template <int D>
-Swept_hit hit_at(const Moving_star<D>& star, std::size_t wall, const Fraction& time, const Exact_point<D>& x,
-                 std::vector<Ring> feature) {
+Collision collision_at(const Moving_star<D>& star, std::size_t wall, const Fraction& time,
+                       const Exact_point<D>& x, std::vector<Ring> weights) {
   const auto& corners = star.walls()[wall].swept.corners();
   // All points times both denominators.
   std::array<Ring_vector<D>, static_cast<std::size_t>(D)> scaled{Star_clock<D>(star).vertex_at(time)};
@@ -151,13 +151,13 @@ Swept_hit hit_at(const Moving_star<D>& star, std::size_t wall, const Fraction& t
     for (int k = 0; k < D; ++k) scaled[c][k] = both * Ring(corners[c + 1][k]);
   Ring_vector<D> place = x.numerator;
   for (Ring& coordinate : place) coordinate = coordinate * time.denominator();
-  return {time, weights_at(scaled, place), std::move(feature)};
+  return {time, weights_at(scaled, place), std::move(weights), wall};
 }
 
-#define CELLWALK_INSTANTIATE(D)                                                                            \
-  template class Star_clock<D>;                                                                            \
-  template Swept_hit hit_at<D>(const Moving_star<D>&, std::size_t, const Fraction&, const Exact_point<D>&, \
-                               std::vector<Ring>);
+#define CELLWALK_INSTANTIATE(D)                                                           \
+  template class Star_clock<D>;                                                           \
+  template Collision collision_at<D>(const Moving_star<D>&, std::size_t, const Fraction&, \
+                                     const Exact_point<D>&, std::vector<Ring>);
 
 CELLWALK_INSTANTIATE(2)
 CELLWALK_INSTANTIATE(3)

@@ -45,12 +45,12 @@ class Star_clock {
   const Moving_star<D>& star_;
 };
 
-/// Where a wall at the vertex meets x at a time, for reports.
-/// \param feature weights of the points that span x
+/// The collision of a wall at the vertex with x at a time, for reports.
+/// \param weights of the points that span x
 /// \pre the wall holds x then
 template <int D>
-Swept_hit hit_at(const Moving_star<D>& star, std::size_t wall, const Fraction& time, const Exact_point<D>& x,
-                 std::vector<Ring> feature);
+Collision collision_at(const Moving_star<D>& star, std::size_t wall, const Fraction& time,
+                       const Exact_point<D>& x, std::vector<Ring> weights);
 
 extern template class Star_clock<2>;
 extern template class Star_clock<3>;

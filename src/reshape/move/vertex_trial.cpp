@@ -10,18 +10,19 @@ namespace cellwalk::detail {
 
 /// Bodies do not depend on each other: each has choices of its own.
 template <int D>
-Obstruction Vertex_trial<D>::run(const Moving_star<D>& star, std::span<const Cell> cells, bool any) {
+bool Vertex_trial<D>::run(const Moving_star<D>& star, std::span<const Cell> cells, bool any) {
   any_ = any;
   groups_.find(cells, vertices_, edges_);
   find_groups_near(star);
   clear();
   near_ = certified_ = 0;
-  Obstruction first;
+  first_.reset();
+  bool is_free = true;
   for (const std::uint32_t group : groups_near_) {
-    note(first, try_group(star, group));
-    if (any && first.meeting != Encounter::apart) break;
+    is_free &= try_group(star, group);
+    if (any && !is_free) break;
   }
-  return first;
+  return is_free;
 }
 
 template <int D>
@@ -40,7 +41,7 @@ void Vertex_trial<D>::find_groups_near(const Moving_star<D>& star) {
 }
 
 template <int D>
-Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group) {
+bool Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group) {
   const Reshape_counts before = counts_;
   const auto members = [group](const std::vector<Member>& all) {
     const auto first = std::ranges::lower_bound(all, group, {}, &Member::group);
@@ -52,33 +53,35 @@ Obstruction Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
   };
   const auto try_choice = [&] {
-    obstruction_ = {};
+    is_free_ = true;
+    collision_.reset();
     shorten(moved_, moved);
     shorten(chains_, chains);
     shorten(supporting_walls_, walls);
     if (try_vertices(star, members(vertices_)) && try_edges(star, members(edges_))) try_faces(star, group);
-    return obstruction_.meeting == Encounter::apart;
+    return is_free_;
   };
-  Obstruction last;
+  std::optional<Collision> last;
   follows_all_ = to_dead_end_ = false;
   dead_ends_ = 0;
   for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
     const bool is_free = try_choice();
     if (choice_ == 0) note_first_choice(before);
-    if (is_free) return {};
-    if (choice_ == 0 || goes_further(obstruction_, last)) last = std::move(obstruction_);
+    if (is_free) return true;
+    if (choice_ == 0 || goes_further_than(last)) last = std::move(collision_);
   }
   // It is blocked. A side on which a vertex gets not to the end may go further than others.
   follows_all_ = to_dead_end_ = true;
-  for (choice_ = 0; !any_ && last.hit && choice_ < std::min(dead_ends_, most_choices); ++choice_)
-    if (!try_choice() && goes_further(obstruction_, last)) last = std::move(obstruction_);
-  return last;
+  for (choice_ = 0; last && choice_ < std::min(dead_ends_, most_choices); ++choice_)
+    if (!try_choice() && goes_further_than(last)) last = std::move(collision_);
+  if (last) keep_first(first_, *std::move(last));
+  return false;
 }
 
-/// True if a choice of sides goes further than another one: nothing is passed by it, or later.
+/// True if this choice of sides goes further than another one: nothing is passed by it, or later.
 template <int D>
-bool Vertex_trial<D>::goes_further(const Obstruction& one, const Obstruction& other) {
-  return other.hit && (!one.hit || other.hit->time < one.hit->time);
+bool Vertex_trial<D>::goes_further_than(const std::optional<Collision>& other) const {
+  return other && (!collision_ || other->time < collision_->time);
 }
 
 template <int D>
@@ -87,15 +90,6 @@ void Vertex_trial<D>::note_first_choice(const Reshape_counts& before) {
   near_ += grew(&Reshape_counts::vertices) + grew(&Reshape_counts::edges) + grew(&Reshape_counts::faces);
   certified_ +=
       grew(&Reshape_counts::same_cell) + grew(&Reshape_counts::same_chain) + grew(&Reshape_counts::apart);
-}
-
-/// Of several obstructions, the first is kept.
-template <int D>
-void Vertex_trial<D>::note(Obstruction& first, Obstruction next) {
-  first.meeting = std::max(first.meeting, next.meeting);
-  if (!next.hit || (first.hit && !is_before(*next.hit, *first.hit))) return;
-  next.meeting = first.meeting;
-  first = std::move(next);
 }
 
 /// False if nothing else needs to be looked at.
@@ -127,7 +121,7 @@ void Vertex_trial<D>::follow_kept(const Moving_star<D>& star,
     if (!moved || !moved->keeps_cell) continue;
     const Particle<D>& p = groups_.particle(moved->member);
     if (!star.meet(std::span<const Point<D>>(&p.position, 1), false).touches) continue;
-    const Followed_vertex followed = follow_vertex(star, p);
+    const Followed_vertex<D> followed = follow_vertex(star, p);
     dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     const std::size_t sides = followed.choices;
     if (sides == 1) continue;
@@ -148,30 +142,28 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   }
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
-    Followed_vertex followed = follow_vertex(star, p, choice_, to_dead_end_);
+    Followed_vertex<D> followed = follow_vertex(star, p, choice_, to_dead_end_);
     // Of a vertex that is blocked, sides matter to its edges until then.
-    if (followed.is_free || !any_) choices_ = std::max(choices_, followed.choices);
+    if (followed.is_free() || !any_) choices_ = std::max(choices_, followed.choices);
     dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     ++counts_.followed;
-    if (followed.is_free) {
-      vertex.now = star.registered_in(followed.cells.end, p);
-      vertex.cells = std::move(followed.cells);
+    vertex.stays = std::move(followed.stays);
+    if (followed.is_free()) {
+      vertex.now = star.registered_in(followed.end, p);
       return true;
     }
-    vertex.cells = std::move(followed.cells);
-    take(followed.block, met);
+    take(followed.collision, met);
   }
-  block(std::move(met), vertex.member, Body_feature::vertex);
+  block(std::move(met), vertex.member);
   return false;
 }
 
-/// Takes over the obstacle to a resident that walls touch.
+/// Takes over the collision of a resident that walls touch.
 template <int D>
-void Vertex_trial<D>::take(std::optional<Star_block>& block, Star_meeting& met) const {
-  if (!block) return;
+void Vertex_trial<D>::take(std::optional<Collision>& collision, Star_meeting& met) const {
+  if (!collision) return;
   met.meeting = Encounter::hit;
-  met.wall = block->wall;
-  if (!any_) met.hit = std::move(block->hit);
+  if (!any_) met.collision = std::move(collision);
 }
 
 template <int D>
@@ -218,14 +210,14 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
     if (met.meeting == Encounter::touch || (met.touches && !any_)) {
       ++counts_.followed;
       Followed_edge followed = follow(star, edge, moved_p, moved_q);
-      if (followed.is_free) {
+      if (followed.is_free()) {
         chains_.emplace_back(edge, followed.chain);
         return true;
       }
-      take(followed.block, met);
+      take(followed.collision, met);
     }
     // A blocked end decides for an edge that is only touched until then.
-    if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge, Body_feature::edge);
+    if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge);
     return false;
   }
   if (is_blocked(moved_p) || is_blocked(moved_q)) return false;
@@ -242,18 +234,20 @@ Followed_edge Vertex_trial<D>::follow(const Moving_star<D>& star, Member edge, c
   const auto [u, v] = groups_.all()[edge.group].edges[edge.number];
   const auto end = [&](std::uint32_t vertex, const Moved_vertex* moved) {
     const Particle<D>& before = groups_.particle({edge.group, vertex});
-    Followed_end<D> result{before, moved ? moved->now : before, {}};
+    Followed_vertex<D> result;
     if (!moved || moved->keeps_cell)
-      result.cells = {{{before.cell, Fraction(1)}}, before.cell};
-    else if (!moved->cells.stays.empty())
-      result.cells = moved->cells;
+      result.stays = {{before.cell, Fraction(1)}};
+    else if (!moved->stays.empty())
+      result.stays = moved->stays;
     else  // it was free for another reason: whatever cells are found, they are linked with its own
-      result.cells = follow_vertex(star, before).cells;
+      result = follow_vertex(star, before);
+    result.before = before;
+    result.end = moved ? moved->now.cell : before.cell;
     return result;
   };
   Followed_edge followed = follow_edge(star, end(u, moved_p), end(v, moved_q), groups_.chain(edge), choice_);
   choices_ = std::max(choices_, followed.choices);
-  if (!followed.is_free) follow_kept(star, {moved_p, moved_q});
+  if (!followed.is_free()) follow_kept(star, {moved_p, moved_q});
   return followed;
 }
 
@@ -277,9 +271,13 @@ bool Vertex_trial<D>::meets(const Moving_star<D>& star, std::span<const Point<D>
 
 /// Notes that something is in the way.
 template <int D>
-void Vertex_trial<D>::block(Star_meeting met, Member member, Body_feature feature) {
+void Vertex_trial<D>::block(Star_meeting met, Member member) {
   ++(met.meeting == Encounter::hit ? counts_.hits : counts_.touches);
-  note(obstruction_, {met.meeting, met.wall, std::move(met.hit), member, feature});
+  is_free_ = false;
+  if (!met.collision) return;
+  met.collision->group = member.group;
+  met.collision->feature = member.number;
+  keep_first(collision_, *std::move(met.collision));
 }
 
 template <int D>

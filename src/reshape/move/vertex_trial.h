@@ -20,16 +20,6 @@
 
 namespace cellwalk::detail {
 
-/// The obstruction of a move.
-struct Obstruction {
-  Encounter meeting = Encounter::apart;
-  // The first hit, if it was to be located:
-  std::size_t wall = 0;
-  std::optional<Swept_hit> hit;
-  Member member{};
-  Body_feature feature = Body_feature::vertex;  ///< which kind of member was hit: its number is that of one
-};
-
 /// One after the other: run() decides about a move, prepare() finds the memory that commit() needs, and
 /// commit() registers the residents that the move touched. Kept for its memory.
 template <int D>
@@ -37,10 +27,12 @@ class Vertex_trial {
  public:
   Vertex_trial(Resident_groups<D>& groups, Reshape_counts& counts) : groups_(groups), counts_(counts) {}
 
-  /// Decides about the move of the vertex of a star.
+  /// True if the vertex of a star may move.
   /// \param cells the cells around it
-  /// \param any if true, the first obstruction found will do
-  Obstruction run(const Moving_star<D>& star, std::span<const Cell> cells, bool any);
+  /// \param any if true, the first obstruction found will do, and no collision is located
+  bool run(const Moving_star<D>& star, std::span<const Cell> cells, bool any);
+  /// The first collision; none if the vertex may move, or if walls only touch something.
+  const std::optional<Collision>& collision() const { return first_; }
   /// The number of residents that run() looked at by the first choice of sides, and of those that
   /// certificates decided.
   std::uint64_t near() const { return near_; }
@@ -48,7 +40,7 @@ class Vertex_trial {
   /// Before commit(), since it takes memory. If no commit() follows, it does no harm.
   void prepare();
   /// Registers the residents near.
-  /// \pre run() found no obstruction, or clear() was called; then prepare() was
+  /// \pre run() was true, or clear() was called; then prepare() was
   void commit() noexcept;
   /// Nothing is near.
   void clear() {
@@ -61,14 +53,13 @@ class Vertex_trial {
   struct Moved_vertex {
     Member member;
     Particle<D> now;
-    Cells_of_vertex cells;  ///< if it was followed
+    std::vector<Cell_until> stays;  ///< if it was followed
     bool keeps_cell, is_free;
   };
   void find_groups_near(const Moving_star<D>& star);
-  Obstruction try_group(const Moving_star<D>& star, std::uint32_t group);
+  bool try_group(const Moving_star<D>& star, std::uint32_t group);
   void note_first_choice(const Reshape_counts& before);
-  static bool goes_further(const Obstruction& one, const Obstruction& other);
-  static void note(Obstruction& first, Obstruction next);
+  bool goes_further_than(const std::optional<Collision>& other) const;
   bool try_vertices(const Moving_star<D>& star, std::span<const Member> vertices);
   bool try_vertex(const Moving_star<D>& star, Moved_vertex& vertex);
   void follow_kept(const Moving_star<D>& star, std::initializer_list<const Moved_vertex*> vertices);
@@ -80,11 +71,11 @@ class Vertex_trial {
                        const Moved_vertex* moved_q);
   bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
   Face_at_star after(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
-  void block(Star_meeting met, Member member, Body_feature feature);
+  void block(Star_meeting met, Member member);
   template <class Starts>
   bool meets(const Moving_star<D>& star, std::span<const Point<D>> points, const Starts& keeps_at_start,
              Star_meeting& met) const;
-  void take(std::optional<Star_block>& block, Star_meeting& met) const;
+  void take(std::optional<Collision>& collision, Star_meeting& met) const;
   const Moved_vertex* find(Member vertex) const;
 
   Resident_groups<D>& groups_;
@@ -98,7 +89,10 @@ class Vertex_trial {
   bool to_dead_end_ = false;   ///< these are tried
   bool any_ = false;
   std::uint64_t near_ = 0, certified_ = 0;
-  Obstruction obstruction_;
+  // By the present choice:
+  bool is_free_ = true;
+  std::optional<Collision> collision_;
+  std::optional<Collision> first_;
   std::vector<Member> vertices_, edges_;
   std::vector<std::uint32_t> groups_near_;
   Chain in_star_;                    ///< facets of a chain that have the vertex

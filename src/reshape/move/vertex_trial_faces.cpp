@@ -48,14 +48,14 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
       return true;
     }
     // Once something is in the way, only further hits matter.
-    if (!result.block && obstruction_.meeting != Encounter::apart) return false;
-    if (!result.block) {
+    if (!result.collision && !is_free_) return false;
+    if (!result.collision) {
       const auto& at = groups_.all()[face.group].faces[face.number];
       follow_kept(star, {find({face.group, at[0]}), find({face.group, at[1]}), find({face.group, at[2]})});
     }
-    take(result.block, met);
+    take(result.collision, met);
   }
-  block(std::move(met), face, Body_feature::face);
+  block(std::move(met), face);
   return false;
 }
 
@@ -65,9 +65,9 @@ template <int D>
 Face_at_star Vertex_trial<D>::after(const Moving_star<D>& star, Member face,
                                     std::span<const Point<D>> points) {
   if constexpr (D == 3) {
-    if (auto block = face_passed_by_vertex(star, {points[0], points[1], points[2]}))
-      return {false, std::move(block), {}};
-    if (obstruction_.meeting != Encounter::apart) return {};
+    if (auto collision = face_passed_by_vertex(star, {points[0], points[1], points[2]}))
+      return {false, std::move(collision), {}};
+    if (!is_free_) return {};
     const Resident_group<3>& group = groups_.all()[face.group];
     const auto& at = group.faces[face.number];
     const auto& sides = group.body->sides(face.number);

@@ -27,6 +27,10 @@ std::vector<std::size_t> places_used(const std::vector<Ring>& weights) {
   return result;
 }
 
+Body_feature kind_of(const Collision& collision) {
+  return static_cast<Body_feature>(collision.feature_weights.size() - 1);
+}
+
 /// The points that span the feature that was hit.
 template <int D>
 std::vector<std::uint32_t> spanning(const Resident_group<D>& group, Body_feature feature,
@@ -40,15 +44,15 @@ std::vector<std::uint32_t> spanning(const Resident_group<D>& group, Body_feature
 template <int D>
 std::pair<Body_feature, std::uint32_t> lowest(const Resident_group<D>& group,
                                               const std::vector<std::uint32_t>& vertices,
-                                              const Obstruction& obstruction) {
-  const std::vector<std::size_t> parts = places_used(obstruction.hit->feature);
+                                              const Collision& collision) {
+  const std::vector<std::size_t> parts = places_used(collision.feature_weights);
   if (parts.size() == 1) return {Body_feature::vertex, vertices[parts[0]]};
   if (parts.size() == 2 && vertices.size() == 3)
     for (std::uint32_t e = 0; e < group.edges.size(); ++e)
       if (std::is_permutation(group.edges[e].begin(), group.edges[e].end(),
                               std::array{vertices[parts[0]], vertices[parts[1]]}.begin()))
         return {Body_feature::edge, e};
-  return {obstruction.feature, obstruction.member.number};
+  return {kind_of(collision), collision.feature};
 }
 
 /// Perpendicular to the features that meet, and where that leaves a choice, along the motion; else to the
@@ -78,32 +82,31 @@ Vector<3> direction(std::span<const Point<3>> wall, std::size_t of_wall, std::sp
 }  // namespace
 
 template <int D>
-Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& star,
+Wall_hit<D> to_wall_hit(const Collision& collision, const Moving_star<D>& star,
                         const Resident_groups<D>& groups) {
-  const Moving_wall<D>& wall = star.walls()[obstruction.wall];
-  const Swept_hit& met = *obstruction.hit;
-  const Resident_group<D>& group = groups.all()[obstruction.member.group];
-  const auto vertices = spanning(group, obstruction.feature, obstruction.member.number);
-  const auto [feature, number] = lowest(group, vertices, obstruction);
+  const Moving_wall<D>& wall = star.walls()[collision.wall];
+  const Resident_group<D>& group = groups.all()[collision.group];
+  const auto vertices = spanning(group, kind_of(collision), collision.feature);
+  const auto [feature, number] = lowest(group, vertices, collision);
 
   Wall_hit<D> hit;
-  hit.set_time(to_time(met.time));
+  hit.set_time(to_time(collision.time));
   hit.facet = wall.facet;
   hit.vertex = star.vertex();
-  hit.resident = groups.at({obstruction.member.group, number}, feature);
+  hit.resident = groups.at({collision.group, number}, feature);
   hit.body = hit.resident.feature;
   hit.feature = hit.resident.number;
-  const std::vector<std::size_t> of_wall = places_used(met.wall);
+  const std::vector<std::size_t> of_wall = places_used(collision.wall_weights);
   hit.kind = of_wall.size() == 1             ? Contact_kind::vertex
              : D == 3 && of_wall.size() == 2 ? Contact_kind::edge
                                              : Contact_kind::facet;
-  std::copy_n(rounded(met.wall).begin(), hit.weights.size(), hit.weights.begin());
-  const std::vector<double> shares = rounded(met.feature);
+  std::copy_n(rounded(collision.wall_weights).begin(), hit.weights.size(), hit.weights.begin());
+  const std::vector<double> shares = rounded(collision.feature_weights);
   std::vector<Point<D>> lowest_points;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Point<D>& x = group.particles[vertices[i]].position;
     hit.point = hit.point + shares[i] * x;
-    if (shares[i] != 0 || obstruction.feature == Body_feature::face) lowest_points.push_back(x);
+    if (shares[i] != 0 || kind_of(collision) == Body_feature::face) lowest_points.push_back(x);
   }
   const auto lowest_vertices = spanning(group, feature, number);
   for (std::size_t k = 0; k < lowest_vertices.size(); ++k)
@@ -124,7 +127,7 @@ Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& st
   return hit;
 }
 
-template Wall_hit<2> to_wall_hit<2>(const Obstruction&, const Moving_star<2>&, const Resident_groups<2>&);
-template Wall_hit<3> to_wall_hit<3>(const Obstruction&, const Moving_star<3>&, const Resident_groups<3>&);
+template Wall_hit<2> to_wall_hit<2>(const Collision&, const Moving_star<2>&, const Resident_groups<2>&);
+template Wall_hit<3> to_wall_hit<3>(const Collision&, const Moving_star<3>&, const Resident_groups<3>&);
 
 }  // namespace cellwalk::detail

@@ -7,13 +7,12 @@
 #include <cellwalk/reshape/move.h>
 
 #include "reshape/residents/resident_groups.h"
-#include "vertex_trial.h"
 
 namespace cellwalk::detail {
 
-/// \pre the obstruction is a hit that was located
+/// \param collision of a wall of the star with a member of a group
 template <int D>
-Wall_hit<D> to_wall_hit(const Obstruction& obstruction, const Moving_star<D>& star,
+Wall_hit<D> to_wall_hit(const Collision& collision, const Moving_star<D>& star,
                         const Resident_groups<D>& groups);
 
 }  // namespace cellwalk::detail

@@ -5,7 +5,6 @@
 #define CELLWALK_INTERNAL_EDGE_FACE_AT_STAR_H
 
 #include <cellwalk/internal/edge/face.h>
-#include <cellwalk/internal/edge/follow_edge.h>
 #include <cellwalk/internal/edge/moving_star.h>
 
 #include <array>
@@ -16,17 +15,17 @@ namespace cellwalk::detail {
 /// A face after the move of the vertex.
 struct Face_at_star {
   bool is_free = false;
-  std::optional<Star_block> block;    ///< if it is not free: the wall of the star that passes it first
-  Supporting_walls supporting_walls;  ///< if it is free
+  std::optional<Collision> collision;  ///< if it is not free: that with the wall that passes it first
+  Supporting_walls supporting_walls;   ///< if it is free
 };
 
-/// Where the vertex itself passes a point of a face that no wall hits, and draws a wall into the face there:
-/// all its walls that go through the face move in their own planes. None if it does not.
+/// The collision where the vertex itself passes a point of a face that no wall hits, and draws a wall into it
+/// there: all its walls that go through the face move in their own planes. None if it does not.
 /// \pre the face is registered
 /// Cost: up to five signs, and some for each wall in its own plane if it passes a point of the face; exact
 /// numbers if it draws a wall.
-std::optional<Star_block> face_passed_by_vertex(const Moving_star<3>& star,
-                                                const std::array<Point<3>, 3>& corners);
+std::optional<Collision> face_passed_by_vertex(const Moving_star<3>& star,
+                                               const std::array<Point<3>, 3>& corners);
 
 /// Decides about a face that stands still while the vertex moves.
 /// \param corners registered as they are after the move

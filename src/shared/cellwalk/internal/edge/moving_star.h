@@ -29,8 +29,7 @@ struct Star_meeting {
   Encounter meeting = Encounter::apart;  ///< hit if one wall hits it, else touch if one touches it
   bool touches = false;                  ///< a wall touches it, whether another one hits it or not
   bool leaves = false;                   ///< of a touch: all walls that touch it leave it at once
-  std::size_t wall = 0;                  ///< the wall that hits it first
-  std::optional<Swept_hit> hit;
+  std::optional<Collision> collision;    ///< if one hits it: the first, if that was to be located
 };
 
 /// The cells around a vertex, all simplices, while it moves. The snapshot has the vertex where it goes, and
@@ -60,9 +59,11 @@ class Moving_star {
   bool has(Half_facet facet) const;
 
   /// How the walls meet a point, a segment or a triangle.
-  /// \param locates if false, `hit` is left out and `wall` is one that hits it
+  /// \param locates if false, the collision is left out
   /// Cost: that of Swept_simplex::meet() a wall, and some 20 us a wall that hits it and is located.
   Star_meeting meet(std::span<const Point<D>> feature, bool locates) const;
+  /// The collision of a wall with a set that it hits, as Swept_simplex::first_hit().
+  Collision first_hit(std::size_t wall, std::span<const Point<D>> feature) const;
 
   /// True if a particle still lies in its cell: then it did so all the time, and met no wall.
   bool keeps_cell(const Particle<D>& p) const;

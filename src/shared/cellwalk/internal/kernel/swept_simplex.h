@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,19 +24,22 @@ enum class Encounter : std::uint8_t {
   hit     ///< with the open simplex
 };
 
-/// The first meeting of a wall with a set that it hits, in exact numbers. Weights are of points and not
-/// negative; each set of them may have a common factor.
-struct Swept_hit {
+/// The collision of a wall with a set that it hits: where and when they meet first, in exact numbers. Weights
+/// are of points and not negative; each set of them may have a common factor.
+struct Collision {
   Fraction time;
-  std::vector<Ring> wall;  ///< weights of the corners of the wall: first the one that moves, then the others
-  std::vector<Ring> feature;  ///< weights of the points that span the set
+  std::vector<Ring> wall_weights;     ///< of its corners: first the one that moves, then the others
+  std::vector<Ring> feature_weights;  ///< of the points that span the set
+  // Numbers by which a caller with several walls or sets finds them again.
+  std::size_t wall = 0;
+  std::uint32_t group = 0, feature = 0;
 };
 
 /// How many points have weights that are not 0: they span the lowest face that holds the place.
 std::size_t corners_used(const std::vector<Ring>& weights);
 
-/// The order of hits: by time, then by the lowest face of the set, then by that of the wall.
-bool is_before(const Swept_hit& a, const Swept_hit& b);
+/// Of collisions the first is kept: by time, then by the lowest face of the set, then by that of the wall.
+void keep_first(std::optional<Collision>& first, Collision next);
 
 /// The simplex K that a wall sweeps while its corner moves from one point to another and its other corners
 /// stand still (2D: a triangle that an edge sweeps; 3D: a tetrahedron that a triangle sweeps). Sets are given
@@ -63,9 +67,9 @@ class Swept_simplex {
   Encounter meet(std::span<const Point<D>> feature, Predicate_counts& counts) const;
 
   /// The infimum of the times at which the wall passes a point of the set in K, and the first such point in
-  /// the order of hits.
+  /// the order of keep_first().
   /// \pre meet(feature) is Encounter::hit
-  Swept_hit first_hit(std::span<const Point<D>> feature) const;
+  Collision first_hit(std::span<const Point<D>> feature) const;
 
   /// True if the wall meets the set only where it starts, and off the hull of its still corners: it leaves
   /// the set at once.
