@@ -138,7 +138,7 @@ Replacement Reshaping<D>::collapse(std::uint32_t u, std::uint32_t onto) {
 template <int D>
 Replacement Reshaping<D>::split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
                                        const Point<D>& target) {
-  detail::Tissue_patch<D>& tissue = state_->restored_tissue();
+  detail::Splitter<D>& splitter = state_->restored_splitter();
   const Snapshot<D>& snapshot = state_->environment.snapshot();
   if (!is_finite(target))
     throw Error(Error_code::input, "the new position is not finite: correct its coordinates");
@@ -155,7 +155,7 @@ Replacement Reshaping<D>::split_vertex(std::uint32_t vertex, std::span<const Cel
                                          " is named twice: name each cell that is taken back once");
   if (solid.empty()) throw Error(Error_code::usage, "no cells are to be taken back: name those in front");
   Replacement result;
-  const auto point = tissue.split_vertex(vertex, solid, target, result.reason);
+  const auto point = splitter.split_vertex(vertex, solid, target, result.reason);
   result.is_made = point.has_value();
   if (!point) return result;
   result.point = *point;
@@ -165,7 +165,7 @@ Replacement Reshaping<D>::split_vertex(std::uint32_t vertex, std::span<const Cel
 
 template <int D>
 Replacement Reshaping<D>::merge_vertices(std::uint32_t point, std::uint32_t onto) {
-  state_->restored_tissue();
+  state_->restored_splitter();
   state_->replacer.check_points(std::array{point, onto});
   if (point == onto) throw Error(Error_code::usage, "a point is merged with another, not with itself");
   return state_->merger.merge_vertices(point, onto);
@@ -173,13 +173,13 @@ Replacement Reshaping<D>::merge_vertices(std::uint32_t point, std::uint32_t onto
 
 template <int D>
 Cut_report Reshaping<D>::cut(const Blade<D>& blade, const Cut_options<D>& options) {
-  detail::Tissue_patch<D>& tissue = state_->restored_tissue();
+  detail::Splitter<D>& splitter = state_->restored_splitter();
   if (!(options.opening > 0) || !std::isfinite(options.opening))
     throw Error(Error_code::input, "a cut is opened by a positive length");
   if (!(options.snap >= 0 && options.snap <= 0.5))
     throw Error(Error_code::input, "the share of an edge within which a cut passes its end lies in [0,0.5]");
-  detail::Slitter<D> slitter(state_->environment, tissue, state_->toggle, blade, options);
-  detail::Cutter<D> cutter(state_->environment, tissue, blade, options);
+  detail::Slitter<D> slitter(state_->environment, splitter, state_->toggle, blade, options);
+  detail::Cutter<D> cutter(state_->environment, splitter, blade, options);
   cutter.prepare();
   slitter.prepare();
   return cutter.run(slitter.run());

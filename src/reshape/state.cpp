@@ -171,12 +171,12 @@ void Reshaping_state<D>::finish() {
 }
 
 template <int D>
-Tissue_patch<D>& Reshaping_state<D>::restored_tissue() {
+Splitter<D>& Reshaping_state<D>::restored_splitter() {
   check_open();
   if (environment.is_frozen())
     throw Error(Error_code::usage, "the environment is frozen: thaw() it to cut it");
   mover.restore();
-  return tissue;
+  return splitter;
 }
 
 template struct Reshaping_state<2>;

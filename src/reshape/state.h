@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cut/merger.h"
-#include "cut/tissue_patch.h"
+#include "cut/splitter.h"
 #include "move/vertex_trial.h"
 #include "replace/replacement.h"
 #include "residents/resident_groups.h"
@@ -30,7 +30,7 @@ struct Reshaping_state {
         toggle(environment, groups, counts.walk),
         transaction(environment, groups, counts),
         replacer(transaction, mover),
-        tissue(transaction, toggle),
+        splitter(transaction, toggle),
         merger(transaction, toggle) {}
 
   /// move: to the target, if that is free. whether: the same, but the result need not name the resident that
@@ -43,7 +43,7 @@ struct Reshaping_state {
   bool push(const Wall_hit<D>& hit, const Vector<D>& motion);
   Box<D> box_of_star(const Point<D>& target) const;
   Toggle<D>& restored_toggle();
-  Tissue_patch<D>& restored_tissue();
+  Splitter<D>& restored_splitter();
   void check_open() const;
   void finish();
 
@@ -56,7 +56,7 @@ struct Reshaping_state {
   Toggle<D> toggle;
   Cell_transaction<D> transaction;
   Replacer<D> replacer;
-  Tissue_patch<D> tissue;
+  Splitter<D> splitter;
   Merger<D> merger;
   bool is_open = true;
 };

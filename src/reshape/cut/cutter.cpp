@@ -93,7 +93,7 @@ void Cutter<D>::label(std::span<const Cell> near) {
 template <int D>
 bool Cutter<D>::split_edge(std::uint32_t u, std::uint32_t v, double share) {
   const Point<D> middle = point_on<D>(snapshot().point(u), snapshot().point(v), share);
-  const auto point = patch_.split_edge(u, v, middle, Tissue_patch<D>::Walls::retreat);
+  const auto point = splitter_.split_edge(u, v, middle, Splitter<D>::Walls::retreat);
   if (!point) return false;
   sides_[*point] = Side::on;
   report_.points.push_back({*point, {u, v}, share});
@@ -256,7 +256,7 @@ void Cutter<D>::part(std::uint32_t vertex) {
     for (const double longest = longest_edge(vertex, part); way > longest;) way /= 2;
     std::string reason;
     for (int k = 0; k < most_halvings; ++k) {
-      const auto point = patch_.split_vertex(vertex, part, from + std::ldexp(way, -k) * into, reason);
+      const auto point = splitter_.split_vertex(vertex, part, from + std::ldexp(way, -k) * into, reason);
       if (!point) continue;
       sides_[*point] = Side::front;
       report_.points.push_back({*point, {vertex, vertex}, 0});
@@ -286,7 +286,7 @@ template <int D>
 void Cutter<D>::prepare() {
   check_reach();
   label(near_cells());
-  for (const auto& [edge, share] : edges_) patch_.open_groups(edge[0], edge[1]);
+  for (const auto& [edge, share] : edges_) splitter_.open_groups(edge[0], edge[1]);
 }
 
 template <int D>

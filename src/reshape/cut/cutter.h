@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "blade_side.h"
-#include "tissue_patch.h"
+#include "splitter.h"
 
 namespace cellwalk::detail {
 
@@ -23,9 +23,9 @@ namespace cellwalk::detail {
 template <int D>
 class Cutter {
  public:
-  Cutter(Environment<D>& environment, Tissue_patch<D>& patch, const Blade<D>& blade,
+  Cutter(Environment<D>& environment, Splitter<D>& splitter, const Blade<D>& blade,
          const Cut_options<D>& options)
-      : environment_(environment), patch_(patch), blade_(blade), options_(options) {}
+      : environment_(environment), splitter_(splitter), blade_(blade), options_(options) {}
 
   /// Opens the groups near all that will be split, so that nothing is refused for them after a change.
   /// \throw Error(usage) for a particle near that does not lie in its cell
@@ -55,7 +55,7 @@ class Cutter {
   Vector<D> direction(std::uint32_t vertex, std::span<const Cell> solid) const;
 
   Environment<D>& environment_;
-  Tissue_patch<D>& patch_;
+  Splitter<D>& splitter_;
   Blade_side<D> blade_;
   Cut_options<D> options_;
   Cut_report report_;

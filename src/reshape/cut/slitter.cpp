@@ -71,7 +71,7 @@ void Slitter<D>::split(Border border) {
       continue;
     }
     const Point<D> at = point_on<D>(snapshot().point(edge[0]), snapshot().point(edge[1]), share);
-    const auto point = patch_.split_edge(edge[0], edge[1], at, Tissue_patch<D>::Walls::move_among_nothing);
+    const auto point = splitter_.split_edge(edge[0], edge[1], at, Splitter<D>::Walls::move_among_nothing);
     if (!point) continue;
     ++report_.split;
     report_.points.push_back({*point, edge, share});
@@ -97,7 +97,7 @@ void Slitter<D>::open() {
 
 template <int D>
 void Slitter<D>::prepare() {
-  for (const auto& edge : near_edges()) patch_.open_groups(edge[0], edge[1]);
+  for (const auto& edge : near_edges()) splitter_.open_groups(edge[0], edge[1]);
 }
 
 template <int D>

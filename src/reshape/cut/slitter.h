@@ -13,7 +13,7 @@
 
 #include "blade_side.h"
 #include "reshape/toggle/toggle.h"
-#include "tissue_patch.h"
+#include "splitter.h"
 
 namespace cellwalk::detail {
 
@@ -22,10 +22,10 @@ template <int D>
 class Slitter {
  public:
   /// \throw Error(input) for a blade that is none
-  Slitter(Environment<D>& environment, Tissue_patch<D>& patch, Toggle<D>& toggle, const Blade<D>& blade,
+  Slitter(Environment<D>& environment, Splitter<D>& splitter, Toggle<D>& toggle, const Blade<D>& blade,
           const Cut_options<D>& options)
       : environment_(environment),
-        patch_(patch),
+        splitter_(splitter),
         toggle_(toggle),
         blade_(blade),
         half_width_(options.opening / 2) {}
@@ -52,7 +52,7 @@ class Slitter {
   void open();
 
   Environment<D>& environment_;
-  Tissue_patch<D>& patch_;
+  Splitter<D>& splitter_;
   Toggle<D>& toggle_;
   Blade_side<D> blade_;
   double half_width_;

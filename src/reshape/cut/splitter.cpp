@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The tests that a split keeps cells positive and solid off free space, and the patch of it.
-#include "tissue_patch.h"
+#include "splitter.h"
 
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/walk/signs.h>
@@ -47,13 +47,13 @@ std::size_t count_fans(const Snapshot<D>& snapshot, std::span<const Cell> cells,
 }  // namespace
 
 template <int D>
-bool Tissue_patch<D>::is_wall_off(Cell cell, std::uint32_t corner) const {
+bool Splitter<D>::is_wall_off(Cell cell, std::uint32_t corner) const {
   return snapshot().is_impassable(facet_off(snapshot(), cell, corner));
 }
 
 /// True if a simplex is positive with a point of it elsewhere.
 template <int D>
-bool Tissue_patch<D>::is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const {
+bool Splitter<D>::is_positive(const Simplex& cell, std::uint32_t moved, const Point<D>& position) const {
   std::array<Point<D>, corner_count> x;
   for (std::size_t k = 0; k < corner_count; ++k)
     x[k] = cell[k] == moved ? position : snapshot().point(cell[k]);
@@ -63,8 +63,8 @@ bool Tissue_patch<D>::is_positive(const Simplex& cell, std::uint32_t moved, cons
 /// True if the walls at an edge may be split at a position: solid retreats, free cells at the edge are
 /// joined, and nothing rests on the walls.
 template <int D>
-bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
-                                     const Point<D>& position) const {
+bool Splitter<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t u, std::uint32_t v,
+                                 const Point<D>& position) const {
   const Snapshot<D>& s = snapshot();
   std::vector<Cell> free;
   std::vector<Half_facet> walls;
@@ -101,8 +101,8 @@ bool Tissue_patch<D>::may_move_walls(std::span<const Cell> cells, std::uint32_t 
 /// True if boundary facets at an edge that is split at a position stay in their planes, and solid goes into
 /// no free cell there.
 template <int D>
-bool Tissue_patch<D>::keeps_solid_off(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
-                                      const Point<D>& position) const {
+bool Splitter<D>::keeps_solid_off(std::span<const Cell> cells, const std::array<std::uint32_t, 2>& edge,
+                                  const Point<D>& position) const {
   const Snapshot<D>& s = snapshot();
   for (const Cell c : cells) {
     const Cell_view<D> view = s.view(c);
@@ -120,20 +120,20 @@ bool Tissue_patch<D>::keeps_solid_off(std::span<const Cell> cells, const std::ar
 
 /// All cells with an edge.
 template <int D>
-std::vector<Cell> Tissue_patch<D>::cells_at(std::uint32_t u, std::uint32_t v) const {
+std::vector<Cell> Splitter<D>::cells_at(std::uint32_t u, std::uint32_t v) const {
   std::vector<Cell> cells = transaction_.environment().cells_around(u);
   std::erase_if(cells, [&](Cell c) { return !has_corner(snapshot(), c, v); });
   return cells;
 }
 
 template <int D>
-void Tissue_patch<D>::open_groups(std::uint32_t u, std::uint32_t v) {
+void Splitter<D>::open_groups(std::uint32_t u, std::uint32_t v) {
   transaction_.open(cells_at(u, v));
 }
 
 /// The mean direction from walls at an edge into solid cells; zero if it has none.
 template <int D>
-Vector<D> Tissue_patch<D>::into_solid(std::uint32_t u, std::uint32_t v) const {
+Vector<D> Splitter<D>::into_solid(std::uint32_t u, std::uint32_t v) const {
   const Snapshot<D>& s = snapshot();
   Vector<D> sum{};
   for (const Cell c : transaction_.environment().cells_around(u)) {
@@ -150,8 +150,8 @@ Vector<D> Tissue_patch<D>::into_solid(std::uint32_t u, std::uint32_t v) const {
 }
 
 template <int D>
-std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::uint32_t v,
-                                                         const Point<D>& position, Walls walls_there) {
+std::optional<std::uint32_t> Splitter<D>::split_edge(std::uint32_t u, std::uint32_t v,
+                                                     const Point<D>& position, Walls walls_there) {
   const Vector<D> inward = into_solid(u, v);
   double size = 0;
   for (const double x : position) size = std::max(size, std::abs(x));
@@ -165,8 +165,8 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_edge(std::uint32_t u, std::u
 }
 
 template <int D>
-std::optional<std::uint32_t> Tissue_patch<D>::split_at(std::uint32_t u, std::uint32_t v,
-                                                       const Point<D>& position, Walls walls_there) {
+std::optional<std::uint32_t> Splitter<D>::split_at(std::uint32_t u, std::uint32_t v, const Point<D>& position,
+                                                   Walls walls_there) {
   const Snapshot<D>& s = snapshot();
   const std::vector<Cell> cells = cells_at(u, v);
   std::vector<Cell> free;
@@ -204,8 +204,8 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_at(std::uint32_t u, std::uin
 }
 
 template <int D>
-std::optional<std::uint32_t> Tissue_patch<D>::split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
-                                                           const Point<D>& target, std::string& reason) {
+std::optional<std::uint32_t> Splitter<D>::split_vertex(std::uint32_t vertex, std::span<const Cell> solid,
+                                                       const Point<D>& target, std::string& reason) {
   const Snapshot<D>& s = snapshot();
   const std::uint32_t point = s.next_point();
   Cell_soup<D> soup;
@@ -264,7 +264,7 @@ std::optional<std::uint32_t> Tissue_patch<D>::split_vertex(std::uint32_t vertex,
   return point;
 }
 
-template class Tissue_patch<2>;
-template class Tissue_patch<3>;
+template class Splitter<2>;
+template class Splitter<3>;
 
 }  // namespace cellwalk::detail

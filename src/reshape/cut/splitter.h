@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The two changes of cells that a cut is made of: an edge of solid cells that is split, and a vertex from
 // which solid cells are taken back. Theory: docs/cutting.md.
-#ifndef CELLWALK_RESHAPE_CUT_TISSUE_PATCH_H
-#define CELLWALK_RESHAPE_CUT_TISSUE_PATCH_H
+#ifndef CELLWALK_RESHAPE_CUT_SPLITTER_H
+#define CELLWALK_RESHAPE_CUT_SPLITTER_H
 
 #include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/reshape/move.h>
@@ -20,9 +20,9 @@ namespace cellwalk::detail {
 
 /// \pre of all members: no certificates of the environment are withdrawn
 template <int D>
-class Tissue_patch {
+class Splitter {
  public:
-  Tissue_patch(Cell_transaction<D>& transaction, Toggle<D>& toggle)
+  Splitter(Cell_transaction<D>& transaction, Toggle<D>& toggle)
       : transaction_(transaction), toggle_(toggle) {}
 
   /// Opens the groups near the cells at an edge, so that nothing that is split there can be refused for them.
@@ -75,9 +75,9 @@ class Tissue_patch {
   Toggle<D>& toggle_;
 };
 
-extern template class Tissue_patch<2>;
-extern template class Tissue_patch<3>;
+extern template class Splitter<2>;
+extern template class Splitter<3>;
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_RESHAPE_CUT_TISSUE_PATCH_H
+#endif  // CELLWALK_RESHAPE_CUT_SPLITTER_H
