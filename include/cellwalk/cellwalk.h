@@ -2,8 +2,9 @@
 // All that most programs need: environments from files and generators, particles, edges, bodies, queries,
 // walls that move, pictures. docs/start.md begins here. It does not include CGAL. import_environment() is in
 // the library cellwalk::loading, draw() in cellwalk::drawing, all else in cellwalk::core. Not included: the
-// map (environment/map.h), the walk for your own kernels (walk/walk_impl.h), scenes (simulation/), and
-// readers, writers and meshers with all their options (io/, loading/, meshing/).
+// map (environment/map.h), the walk for your own kernels (walk/walk_impl.h), the methods of the paper
+// (paper.h), scenes (simulation/), and readers, writers and meshers with all their options (io/, loading/,
+// meshing/).
 #ifndef CELLWALK_CELLWALK_H
 #define CELLWALK_CELLWALK_H
 

@@ -3,7 +3,7 @@
 // facet between two cells is one loop, seen from both.
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

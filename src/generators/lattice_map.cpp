@@ -2,7 +2,7 @@
 // The test that coordinates of a lattice are computed without rounding, or keep their planes flat.
 #include <cellwalk/generators/lattice_map.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <cmath>

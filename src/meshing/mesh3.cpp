@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bounds given to the helper of Mesh_3, scaled to a size without overflow, and its tetrahedra.
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/meshing/mesh3.h>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Certificates that boundary facets do not meet, against exact signs at places that corners may take.
 #include <cellwalk/internal/environment/parting.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/kernel/random.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Surfaces of public origin: clean ones are meshed, bad ones are refused for the reason they are bad.
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/kernel/policies.h>
 #include <cellwalk/meshing/mesh3.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 

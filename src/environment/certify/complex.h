@@ -7,7 +7,7 @@
 #define CELLWALK_ENVIRONMENT_CERTIFY_COMPLEX_H
 
 #include <cellwalk/environment/certify.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
