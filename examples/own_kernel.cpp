@@ -2,6 +2,7 @@
 // A number policy of one's own: where all coordinates are small integers, signs can be had in 64-bit
 // integers, exactly. The walk is compiled for it here, and gives the answers of the policy that is shipped.
 #include <cellwalk/cellwalk.h>
+#include <cellwalk/paper.h>  // for walks by signs alone
 #include <cellwalk/walk/walk_impl.h>
 
 #include <cstdint>
@@ -54,9 +55,8 @@ int main() {
   for (int i = 0; i < 20000; ++i) {
     const Particle<3> particle = locator.particle_at(lattice_point(33)).value();
     const Point<3> target = lattice_point(36);
-    const auto a =
-        walk<Small_integers>(snapshot, particle, target, own, {.strategy = Walk_strategy::exit_rule});
-    const auto b = walk<Exact>(snapshot, particle, target, shipped, {.strategy = Walk_strategy::exit_rule});
+    const auto a = walk<Small_integers>(snapshot, particle, target, own);
+    const auto b = walk<Exact>(snapshot, particle, target, shipped, Walk_strategy::exit_rule);
     different += a.status != b.status || a.cell != b.cell;
     contacts += a.status == Walk_status::contact;
   }

@@ -71,7 +71,7 @@ class Failure_search {
     std::vector<Cell> visited;
     Walk_counts counts;
     const Walk_result<D> result =
-        kernel.walk(scene.snapshot, particle, motion.to, counts, {kernel.strategy, &visited, nullptr});
+        kernel.walk(scene.snapshot, particle, motion.to, counts, kernel.strategy, {&visited});
     const Outcome outcome = outcome_of(scene.oracle, scene.snapshot, motion, result, visited);
     if (outcome == Outcome::right) return;
     const char* what = outcome_names[static_cast<std::size_t>(outcome)];

@@ -101,7 +101,7 @@ class Flight_trial {
     std::vector<Cell> visited;
     Walk_counts counts;
     const Walk_result<D> result =
-        kernel_.walk(scene_.snapshot, f.particle, to, counts, {kernel_.strategy, &visited, nullptr});
+        kernel_.walk(scene_.snapshot, f.particle, to, counts, kernel_.strategy, {&visited});
     const Outcome outcome = outcome_of(scene_.oracle, scene_.snapshot, motion, result, visited);
     ++flown_.tally[static_cast<std::size_t>(outcome)];
     if (result.status != Walk_status::arrived) return result;

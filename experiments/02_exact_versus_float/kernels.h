@@ -3,7 +3,8 @@
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_KERNELS_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_KERNELS_H
 
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <array>
 
@@ -11,7 +12,7 @@ namespace cellwalk::exact_float {
 
 template <int D>
 using Walk_function = Walk_result<D> (*)(const Snapshot<D>&, const Particle<D>&, const Point<D>&,
-                                         Walk_counts&, const Walk_options&);
+                                         Walk_counts&, Walk_strategy, const Walk_options&);
 
 template <int D>
 struct Kernel {

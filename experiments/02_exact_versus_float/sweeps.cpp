@@ -103,8 +103,8 @@ class Sweep_trial {
     const oracle::Case<D> of_p = scene_.motion_of(*p, motion.to);
     if (of_p.truth.choices > 0) return;  // what becomes of the edge depends on the side that p takes
     Move<D> move{*p, *q, *p, edge.chain, {}, {}, false};
-    const auto walked = cellwalk::move(scene_.snapshot, move.moved, motion.to, counts.walk,
-                                       {Walk_strategy::certified, &move.visited, &move.crossed});
+    const auto walked =
+        cellwalk::move(scene_.snapshot, move.moved, motion.to, counts.walk, {&move.visited, &move.crossed});
     move.is_blocked = walked.status != Walk_status::arrived;
     move.moved.position = motion.to;
     move.moved.cell = move.visited.back();
@@ -145,11 +145,12 @@ class Sweep_trial {
   /// contact.
   Walk_status walk_both(const Kernel<D>& kernel, const Move<D>& move) const {
     Walk_counts counts;
-    const Walk_options options{kernel.strategy, nullptr, nullptr};
-    const Walk_result<D> of_p = kernel.walk(scene_.snapshot, move.p, move.moved.position, counts, options);
+    const Walk_result<D> of_p =
+        kernel.walk(scene_.snapshot, move.p, move.moved.position, counts, kernel.strategy, {});
     if (of_p.status != Walk_status::arrived) return of_p.status;
     const Particle<D> temporary{move.moved.position, of_p.cell, of_p.dimension, 0};
-    const Walk_result<D> third = kernel.walk(scene_.snapshot, temporary, move.q.position, counts, options);
+    const Walk_result<D> third =
+        kernel.walk(scene_.snapshot, temporary, move.q.position, counts, kernel.strategy, {});
     if (third.status == Walk_status::arrived && third.cell != move.q.cell) return Walk_status::contact;
     return third.status;
   }

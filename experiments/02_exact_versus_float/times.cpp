@@ -94,7 +94,7 @@ void time_dimension(const Run_options& options, io::Csv_writer& table) {
         const double begin = processor_seconds();
         for (const Batch<D>& batch : batches)
           for (const auto& [particle, to] : batch.motions)
-            kernel.walk(batch.scene.snapshot, particle, to, counts, {kernel.strategy, nullptr, nullptr});
+            kernel.walk(batch.scene.snapshot, particle, to, counts, kernel.strategy, {});
         s = processor_seconds() - begin;
         bytes = allocated - before;
       }

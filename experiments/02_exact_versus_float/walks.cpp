@@ -66,7 +66,7 @@ Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t m
       std::vector<Cell> visited;
       Walk_counts ignored;
       const Walk_result<D> result =
-          tested[k].walk(scene.snapshot, *particle, way.to, ignored, {tested[k].strategy, &visited, nullptr});
+          tested[k].walk(scene.snapshot, *particle, way.to, ignored, tested[k].strategy, {&visited});
       const Outcome outcome = outcome_of(scene.oracle, scene.snapshot, motion, result, visited);
       ++counts.tallies[k][static_cast<std::size_t>(outcome)];
     }

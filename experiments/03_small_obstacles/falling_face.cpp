@@ -2,7 +2,7 @@
 #include "falling_face.h"
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <cmath>

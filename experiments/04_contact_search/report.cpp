@@ -24,23 +24,19 @@ constexpr int least_bits = 2, most_bits = 30, bits_step = 2;
 constexpr std::size_t quick_contacts = 150, full_contacts = 2000;
 
 std::vector<Search> all_searches() {
-  std::vector<Search> searches{{Contact_search::exact},
-                               {Contact_search::exhaustive, Search_cells::flooded},
-                               {.kind = Contact_search::exhaustive, .below = false},
-                               {Contact_search::exhaustive, Search_cells::traversed}};
-  for (int bits = least_bits; bits <= most_bits; bits += bits_step)
-    searches.push_back({Contact_search::dichotomic, Search_cells::flooded, bits});
-  for (int bits = least_bits; bits <= most_bits; bits += bits_step)
-    searches.push_back({Contact_search::dichotomic_segment, Search_cells::flooded, bits});
+  const auto exhaustive = Contact_search::exhaustive;
+  std::vector<Search> searches{
+      {"exact"},
+      {"exhaustive", Search_options{.method = exhaustive}},
+      {"exhaustive_unlimited", Search_options{.method = exhaustive, .below = false}},
+      {"exhaustive_traversed", Search_options{.method = exhaustive, .cells = Search_cells::traversed}}};
+  const auto add = [&](const char* name, Contact_search method) {
+    for (int bits = least_bits; bits <= most_bits; bits += bits_step)
+      searches.push_back({name, Search_options{method, std::ldexp(1.0, -bits)}, bits});
+  };
+  add("dichotomic", Contact_search::dichotomic);
+  add("dichotomic_segment", Contact_search::dichotomic_segment);
   return searches;
-}
-
-std::string name_of(const Search& search) {
-  if (search.kind == Contact_search::exact) return "exact";
-  if (search.kind == Contact_search::dichotomic) return "dichotomic";
-  if (search.kind == Contact_search::dichotomic_segment) return "dichotomic_segment";
-  if (!search.below) return "exhaustive_unlimited";
-  return search.cells == Search_cells::flooded ? "exhaustive" : "exhaustive_traversed";
 }
 
 /// Six digits: what differs in the last bits between libraries is not written.
@@ -69,8 +65,7 @@ using Tallies = std::vector<std::vector<Search_tally>>;  // of each world
 template <class Write>
 void for_each_row(const Tallies& tallies, const std::vector<Search>& searches, Write write) {
   for (std::size_t w = 0; w < tallies.size(); ++w)
-    for (std::size_t i = 0; i < searches.size(); ++i)
-      write(contact_search::name_of(worlds[w]), searches[i], tallies[w][i]);
+    for (std::size_t i = 0; i < searches.size(); ++i) write(name_of(worlds[w]), searches[i], tallies[w][i]);
 }
 
 void write_errors(const Tallies& tallies, const std::vector<Search>& searches,
@@ -84,10 +79,9 @@ void write_errors(const Tallies& tallies, const std::vector<Search>& searches,
                  point = spread(t, &Search_error::point), normal = spread(t, &Search_error::normal);
     double late = 0;
     for (const Search_error& e : t.errors) late = std::max(late, -e.early);
-    out.row(world, name_of(search), bits_of(search), t.errors.size(), t.same_time, t.late,
-            t.counts.search_misses, t.same_feature, text(time.mean), text(time.median), text(time.most),
-            text(late), text(gap.median), text(gap.most), text(point.median), text(point.most),
-            text(normal.median), text(normal.most));
+    out.row(world, search.name, bits_of(search), t.errors.size(), t.same_time, t.late, t.counts.search_misses,
+            t.same_feature, text(time.mean), text(time.median), text(time.most), text(late), text(gap.median),
+            text(gap.most), text(point.median), text(point.most), text(normal.median), text(normal.most));
   });
   out.commit();
 }
@@ -98,7 +92,7 @@ void write_costs(const Tallies& tallies, const std::vector<Search>& searches,
                      {"world", "search", "tolerance_bits", "contacts", "search_sweeps", "search_walks",
                       "search_walls", "flooded_cells", "signs", "exact_signs"});
   for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
-    out.row(world, name_of(search), bits_of(search), t.errors.size(), t.counts.search_sweeps,
+    out.row(world, search.name, bits_of(search), t.errors.size(), t.counts.search_sweeps,
             t.counts.search_walks, t.counts.search_walls, t.counts.flooded_cells,
             t.counts.walk.predicates.orientations, t.counts.walk.predicates.fallbacks);
   });
@@ -109,7 +103,7 @@ void write_timings(const Tallies& tallies, const std::vector<Search>& searches,
                    const std::filesystem::path& folder) {
   io::Csv_writer out(folder / "timings.csv", {"world", "search", "tolerance_bits", "us_per_contact"});
   for_each_row(tallies, searches, [&](std::string_view world, const Search& search, const Search_tally& t) {
-    out.row(world, name_of(search), bits_of(search), text(t.microseconds));
+    out.row(world, search.name, bits_of(search), text(t.microseconds));
   });
   out.commit();
 }
@@ -125,7 +119,7 @@ void run(const Plan& plan, const std::filesystem::path& folder) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     is_timed ? 1 : static_cast<std::size_t>(plan.threads));
     const auto trial = [&](std::size_t w) {
-      const std::string_view name = contact_search::name_of(worlds[w]);
+      const std::string_view name = name_of(worlds[w]);
       return contact_search::run(worlds[w], searches,
                                  {experiments::part_seed(plan.seed, name),
                                   plan.quick ? quick_contacts : full_contacts, plan.rounds});

@@ -109,12 +109,7 @@ std::vector<Trial<D>> draw(const Scene<D>& scene, Random& random, std::size_t wa
 }
 
 Sweep_options options_of(const Search& search) {
-  Sweep_options options;
-  options.search = search.kind;
-  options.cells = search.cells;
-  options.below = search.below;
-  if (search.bits > 0) options.tolerance = std::ldexp(1.0, -search.bits);
-  return options;
+  return {.search = search.options ? &*search.options : nullptr};
 }
 
 /// The points of the feature of the environment that a contact names, ascending.

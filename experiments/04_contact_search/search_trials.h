@@ -4,10 +4,12 @@
 #ifndef CELLWALK_EXPERIMENTS_CONTACT_SEARCH_SEARCH_TRIALS_H
 #define CELLWALK_EXPERIMENTS_CONTACT_SEARCH_SEARCH_TRIALS_H
 
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -25,10 +27,9 @@ std::string_view name_of(World world);
 
 /// A way to locate a contact.
 struct Search {
-  Contact_search kind = Contact_search::exact;
-  Search_cells cells = Search_cells::flooded;  ///< of an exhaustive one
+  const char* name;
+  std::optional<Search_options> options = {};  ///< none for the exact contact
   int bits = 0;                                ///< of a dichotomic one: its tolerance is 2^-bits; else 0
-  bool below = true;                           ///< of an exhaustive one, see Sweep_options
 };
 
 /// Errors of one search at one contact; times are shares of the motion.

@@ -103,7 +103,7 @@ Counts walk_in_world(const Family& family, std::uint64_t seed, std::uint64_t mot
       std::vector<Cell> visited;
       Walk_counts ignored;
       const auto result =
-          kernels[k].walk(scene.snapshot, *particle, to, ignored, {kernels[k].strategy, &visited, nullptr});
+          kernels[k].walk(scene.snapshot, *particle, to, ignored, kernels[k].strategy, {&visited});
       const auto outcome = exact_float::outcome_of(scene.oracle, scene.snapshot, motion, result, visited);
       ++counts.tallies[k][static_cast<std::size_t>(outcome)];
     }

@@ -4,6 +4,8 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/loading/generators.h>
+#include <cellwalk/kernel/policies.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <variant>
 
@@ -16,23 +18,28 @@ namespace {
 /// A way to walk.
 struct Way {
   const char* name;
-  Walk_result<3> (*move)(const Snapshot<3>&, Particle<3>&, const Point<3>&, Walk_counts&,
+  Walk_result<3> (*move)(const Snapshot<3>&, Particle<3>&, const Point<3>&, Walk_counts&, Walk_strategy,
                          const Walk_options&);
   Walk_strategy strategy;
   bool forecasts = true;  ///< false: what a particle aimed at is forgotten, so that facets come in order
   std::size_t share = 1;  ///< one in so many of the particles fly
 };
 
-constexpr Way ways[] = {
-    {"planes", move<Exact, 3>, Walk_strategy::certified},
-    {"planes_no_own_cell_first", detail::move_by_walk<Exact, 3>, Walk_strategy::certified},
-    {"planes_no_forecast", move<Exact, 3>, Walk_strategy::certified, false},
-    {"signs", move<Exact, 3>, Walk_strategy::exit_rule},
-    {"signs_no_forecast", move<Exact, 3>, Walk_strategy::exit_rule, false},
-    {"simplex", move<Exact, 3>, Walk_strategy::predictive_simplex},
-    {"simplex_no_forecast", move<Exact, 3>, Walk_strategy::predictive_simplex, false},
-    {"lazy_signs", move<Lazy, 3>, Walk_strategy::exit_rule, true, 20},
-    {"rational_signs", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, 200}};
+Walk_result<3> move_by_planes_of_walk(const Snapshot<3>& snapshot, Particle<3>& particle,
+                                      const Point<3>& target, Walk_counts& counts, Walk_strategy,
+                                      const Walk_options& options) {
+  return detail::move_by_walk<Exact>(snapshot, particle, target, counts, options);
+}
+
+constexpr Way ways[] = {{"planes", move<Exact, 3>, Walk_strategy::certified},
+                        {"planes_no_own_cell_first", move_by_planes_of_walk, Walk_strategy::certified},
+                        {"planes_no_forecast", move<Exact, 3>, Walk_strategy::certified, false},
+                        {"signs", move<Exact, 3>, Walk_strategy::exit_rule},
+                        {"signs_no_forecast", move<Exact, 3>, Walk_strategy::exit_rule, false},
+                        {"simplex", move<Exact, 3>, Walk_strategy::predictive_simplex},
+                        {"simplex_no_forecast", move<Exact, 3>, Walk_strategy::predictive_simplex, false},
+                        {"lazy_signs", move<Lazy, 3>, Walk_strategy::exit_rule, true, 20},
+                        {"rational_signs", move<Unfiltered, 3>, Walk_strategy::exit_rule, true, 200}};
 
 Environment<3> environment_of(const Flight_setting& setting) {
   const double n = setting.is_small ? 12 : 46;
@@ -55,7 +62,6 @@ Flight fly(const Snapshot<3>& snapshot, const Way& way, std::vector<Particle<3>>
            const std::vector<Vector<3>>& moves, std::size_t stride, Walk_counts& counts) {
   std::vector<std::uint32_t> contacts(particles.size());
   Walk_options options;
-  options.strategy = way.strategy;
   options.locates_contact = false;
   const double start = experiments::processor_seconds();
   for (std::size_t first = 0; first < moves.size(); first += stride)
@@ -63,7 +69,8 @@ Flight fly(const Snapshot<3>& snapshot, const Way& way, std::vector<Particle<3>>
       Particle<3>& p = particles[i];
       if (!way.forecasts) p.aimed = 0;
       const Point<3> target = p.position + moves[first + i];
-      contacts[i] += way.move(snapshot, p, target, counts, options).status == Walk_status::contact;
+      contacts[i] +=
+          way.move(snapshot, p, target, counts, way.strategy, options).status == Walk_status::contact;
     }
   const double seconds = experiments::processor_seconds() - start;
   return {std::move(particles), std::move(contacts), seconds};

@@ -3,6 +3,7 @@
 // without each of them: hexahedra of side 0.3 bounce in a grid of hexahedral unit cells, 10 % of them solid,
 // by a fiftieth of a cell a step. Times include the response to contacts. Beside it, what the searches for a
 // contact cost where there is one.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/transform.h>
@@ -138,7 +139,7 @@ const std::deque<Blocked>& blocked() {
   return result;
 }
 
-void search(benchmark::State& state, const Sweep_options& options) {
+void sweep(benchmark::State& state, const Sweep_options& options) {
   Edge_counts counts;
   for (auto _ : state)
     for (const Blocked& b : blocked())
@@ -152,13 +153,15 @@ void search(benchmark::State& state, const Sweep_options& options) {
   state.counters["misses"] = static_cast<double>(counts.search_misses) / n;
 }
 
-void exact(benchmark::State& s) { search(s, {}); }
-void dichotomic(benchmark::State& s) { search(s, {.search = Contact_search::dichotomic}); }
-void exhaustive(benchmark::State& s) { search(s, {.search = Contact_search::exhaustive}); }
+void search(benchmark::State& state, const Search_options& options) { sweep(state, {.search = &options}); }
+
+void exact(benchmark::State& s) { sweep(s, {}); }
+void dichotomic(benchmark::State& s) { search(s, {}); }
+void exhaustive(benchmark::State& s) { search(s, {.method = Contact_search::exhaustive}); }
 void exhaustive_traversed(benchmark::State& s) {
-  search(s, {.search = Contact_search::exhaustive, .cells = Search_cells::traversed});
+  search(s, {.method = Contact_search::exhaustive, .cells = Search_cells::traversed});
 }
-void touches(benchmark::State& s) { search(s, {.touch = Touch::stop}); }
+void touches(benchmark::State& s) { sweep(s, {.touch = Touch::stop}); }
 
 BENCHMARK(exact)->Unit(benchmark::kMicrosecond);
 BENCHMARK(dichotomic)->Unit(benchmark::kMicrosecond);

@@ -78,7 +78,7 @@ void check_edges(benchmark::State& state, Check check) {
       visited.clear();
       crossed.clear();
       const Particle<3> from = e.p;
-      move(grid(), e.p, e.targets[back], counts.walk, {Walk_strategy::certified, &visited, &crossed});
+      move(grid(), e.p, e.targets[back], counts.walk, {&visited, &crossed});
       const auto note = [&](auto&& result) {
         blocked += result.contact.has_value();
         e.chain = std::move(result.chain);

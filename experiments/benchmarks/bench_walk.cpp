@@ -13,7 +13,7 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -115,14 +115,12 @@ template <class Policy, Walk_strategy strategy>
 void cellwalk_moves(benchmark::State& state, Start start, double reach) {
   World& w = world(static_cast<std::size_t>(state.range(0)));
   Motions m = motions(w, start, reach);
-  Walk_options options;
-  options.strategy = strategy;
   Walk_counts counts;
   for (auto _ : state) {
     const std::vector<Point<3>>& targets = m.next_targets();
     std::size_t blocked = 0;
     for (std::size_t i = 0; i < targets.size(); ++i)
-      blocked += cellwalk::move<Policy>(w.snapshot, m.particles[i], targets[i], counts, options).status !=
+      blocked += cellwalk::move<Policy>(w.snapshot, m.particles[i], targets[i], counts, strategy).status !=
                  Walk_status::arrived;
     if (blocked != 0) state.SkipWithError("a particle met a wall");
   }

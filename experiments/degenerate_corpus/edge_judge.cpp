@@ -46,8 +46,7 @@ std::optional<Judged> Edge_judge<D>::move(Edge<D>& edge, const Move<D>& move) {
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   const bool blocked =
-      cellwalk::move(snapshot_, p, move.to, counts_.walk, {Walk_strategy::certified, &visited, &crossed})
-          .contact.has_value();
+      cellwalk::move(snapshot_, p, move.to, counts_.walk, {&visited, &crossed}).contact.has_value();
   if (blocked != truth.arrivals.empty()) throw std::logic_error("a walk that the oracle contradicts");
   if (blocked) {
     p.position = move.to;

@@ -40,8 +40,7 @@ struct Move {
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
     Particle<3> to = from;
-    is_vertex_free =
-        !move(snapshot, to, target, counts.walk, {Walk_strategy::certified, &visited, &crossed}).contact;
+    is_vertex_free = !move(snapshot, to, target, counts.walk, {&visited, &crossed}).contact;
     require(is_vertex_free, "face: p itself is free");
     const Vertex_path<3> path{from, to, visited, crossed};
     const Sweep_result<3> to_q = sweep_triangle<3>(snapshot, path, at_q, pq, counts),

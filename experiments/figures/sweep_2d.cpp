@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The paper's figure 4, and what three segments miss in the plane.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/drawing/drawing.h>
 #include <cellwalk/internal/drawing/figure.h>
@@ -59,11 +60,10 @@ struct Case {
   Sweep_result<2> sweep(const Sweep_options& options, const Point<2>& target = b) {
     return sweep_edge(snapshot, p, target, end, before, options, counts);
   }
-  std::optional<Contact<2>> contact(Contact_search search) {
-    Sweep_options options;
-    options.search = search;
-    options.tolerance = tolerance;
-    return sweep(options).contact;
+  std::optional<Contact<2>> contact() { return sweep({}).contact; }
+  std::optional<Contact<2>> contact(Contact_search method) {
+    const Search_options search{.method = method, .tolerance = tolerance};
+    return sweep({.search = &search}).contact;
   }
 
   Environment<2> environment;
@@ -182,7 +182,7 @@ drawing::Panel draw_three_segments(Case& c, Json& json) {
 }
 
 drawing::Panel draw_triangle(Case& c, Json& json) {
-  const auto contact = c.contact(Contact_search::exact);
+  const auto contact = c.contact();
   require(contact.has_value(), "2D: the sweep of the triangle finds it");
   require(contact->exact_time() == time_of(floating[2]), "2D: at the time of its vertex");
   json["triangle"] = {{"contact", to_json(c.snapshot, *contact)}, {"cells", to_json(c.snapshot, c.met)}};
@@ -192,7 +192,7 @@ drawing::Panel draw_triangle(Case& c, Json& json) {
 }
 
 drawing::Panel draw_exhaustive(Case& c, Json& json) {
-  const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::exhaustive);
+  const auto exact = c.contact(), found = c.contact(Contact_search::exhaustive);
   require(exact && found && exact->exact_time() == found->exact_time(),
           "2D: the exhaustive search finds the exact time");
   const auto vertices = vertices_inside(c);
@@ -217,7 +217,7 @@ drawing::Panel draw_exhaustive(Case& c, Json& json) {
 }
 
 drawing::Panel draw_dichotomic(Case& c, Json& json) {
-  const auto exact = c.contact(Contact_search::exact), found = c.contact(Contact_search::dichotomic);
+  const auto exact = c.contact(), found = c.contact(Contact_search::dichotomic);
   require(found && found->exact_time() <= exact->exact_time(), "2D: the dichotomic search is never late");
   Plot plot(fmt::format("4. Dichotomic, to 1/{:.0f}: free until s = {}", 1 / tolerance,
                         text_of(found->exact_time())),
@@ -249,7 +249,7 @@ void draw_sweep_2d(const std::filesystem::path& folder) {
   Case between(with_floating), spikes(high_spikes);
   Sweep_options paper;
   paper.sweep = Sweep::three_segments;
-  const auto by_segments = spikes.sweep(paper).contact, by_triangle = spikes.contact(Contact_search::exact);
+  const auto by_segments = spikes.sweep(paper).contact, by_triangle = spikes.contact();
   require(by_segments && by_triangle && by_segments->exact_time() == by_triangle->exact_time(),
           "2D: three segments find spikes that cross the third one");
 

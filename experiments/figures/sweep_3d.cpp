@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A thin spike through the inside of a swept triangle: its three sides are free, the sweep is not.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/json_file.h>
@@ -44,22 +45,19 @@ void draw_sweep_3d(const std::filesystem::path& folder) {
   Edge_counts counts;
   const Chain_result<3> before = find_chain(snapshot, p, end, counts.walk);
   require(!before.contact, "3D: the edge is free at its start");
-  const auto sweep = [&](Sweep kind, Contact_search search) {
-    Sweep_options options;
-    options.sweep = kind;
-    options.search = search;
+  const auto sweep = [&](const Sweep_options& options) {
     return sweep_edge(snapshot, p, b, end, before.chain, options, counts).contact;
   };
-  require(!sweep(Sweep::three_segments, Contact_search::exact), "3D: three segments miss the spike");
-  const auto exact = sweep(Sweep::triangle, Contact_search::exact);
+  require(!sweep({.sweep = Sweep::three_segments}), "3D: three segments miss the spike");
+  const auto exact = sweep({});
   require(exact.has_value(), "3D: the sweep of the triangle finds it");
   require(exact->body == Body_feature::edge && exact->kind == Contact_kind::edge,
           "3D: the edge meets an edge of the spike");
-  const auto exhaustive = sweep(Sweep::triangle, Contact_search::exhaustive),
-             dichotomic = sweep(Sweep::triangle, Contact_search::dichotomic);
+  const Search_options obstacles{.method = Contact_search::exhaustive}, bisection;
+  const auto exhaustive = sweep({.search = &obstacles}), dichotomic = sweep({.search = &bisection});
   require(exhaustive && exhaustive->exact_time() == exact->exact_time(),
           "3D: the exhaustive search finds the exact time");
-  const double late = Sweep_options{}.tolerance;
+  const double late = bisection.tolerance;
   require(
       dichotomic && dichotomic->exact_time() <= exact->exact_time() && exact->time - dichotomic->time <= late,
       "3D: the dichotomic search is within its tolerance");

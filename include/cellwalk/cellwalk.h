@@ -4,7 +4,8 @@
 // import_environment() is in the library cellwalk::loading, draw() in cellwalk::drawing, all else in
 // cellwalk::core. Not included: the combinatorial map (environment/map.h), the walk for number types of your
 // own (walk/walk_impl.h), compiled environments and parts by place or name (environment/compiled.h,
-// selection.h), and readers, writers and meshers with all their options (io/, loading/, meshing/).
+// selection.h), the methods of the paper (paper.h), and readers, writers and meshers with all their options
+// (io/, loading/, meshing/).
 #ifndef CELLWALK_CELLWALK_H
 #define CELLWALK_CELLWALK_H
 

@@ -16,9 +16,11 @@ struct Step_words {
   const std::string &rule, &report;
 };
 
-Body_options to_options(const Sweep_words& words, const Step_words& step, bool clearance, int most_contacts) {
+/// \param search the caller's, to which the options refer
+Body_options to_options(const Sweep_words& words, Search_options& search, const Step_words& step,
+                        bool clearance, int most_contacts) {
   Body_options options;
-  options.sweep = to_sweep_options(words);
+  options.sweep = to_sweep_options(words, search);
   options.clearance = clearance;
   options.rule = choose<Step_rule>(step.rule, "rule",
                                    {{"slide", Step_rule::slide},
@@ -74,8 +76,9 @@ void bind_bodies(py::module_& module) {
           [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,
              const std::string& search, double tolerance, const std::string& rule, const std::string& report,
              bool clearance, int most_contacts) {
-            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance}, {rule, report},
-                                                 clearance, most_contacts));
+            Search_options searched;
+            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance}, searched,
+                                                 {rule, report}, clearance, most_contacts));
           },
           py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("touch") = "pass",
           py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("rule") = "slide",
@@ -106,8 +109,10 @@ void bind_bodies(py::module_& module) {
           "move_vertex",
           [](Any_body& self, std::uint32_t vertex, const py::object& target, const std::string& sweep,
              const std::string& touch, const std::string& search, double tolerance) {
+            Search_options searched;
             return self.move_vertex(
-                vertex, target, {.sweep = to_sweep_options({sweep, touch, search, "flooded", tolerance})});
+                vertex, target,
+                {.sweep = to_sweep_options({sweep, touch, search, "flooded", tolerance}, searched)});
           },
           py::arg("vertex"), py::arg("target"), py::kw_only(), py::arg("sweep") = "triangle",
           py::arg("touch") = "pass", py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20,

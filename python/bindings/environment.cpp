@@ -5,7 +5,7 @@
 #include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/internal/loading/report.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/sweep.h>
 
 #include <fmt/core.h>
@@ -75,16 +75,16 @@ Locations locate(const Shared_world& self, const py::object& points, int threads
 Motions walk_points(const Shared_world& self, const py::object& starts, const py::object& targets,
                     const std::string& touch, const std::string& kernel, int threads) {
   check_threads(threads);
-  Move_options options;
-  options.touch = to_touch(touch);
-  options.kernel = choose<Kernel_choice>(kernel, "kernel",
-                                         {{"exact", Kernel_choice::exact},
-                                          {"lazy", Kernel_choice::lazy},
-                                          {"double", Kernel_choice::double_precision},
-                                          {"float", Kernel_choice::float_precision}});
-  if (options.kernel != Kernel_choice::exact) {
-    options.strategy = Walk_strategy::exit_rule;
-    if (options.touch == Touch::stop)
+  const Touch stop_or_pass = to_touch(touch);
+  Walk_method method;
+  method.kernel = choose<Kernel_choice>(kernel, "kernel",
+                                        {{"exact", Kernel_choice::exact},
+                                         {"lazy", Kernel_choice::lazy},
+                                         {"double", Kernel_choice::double_precision},
+                                         {"float", Kernel_choice::float_precision}});
+  if (method.kernel != Kernel_choice::exact) {
+    method.strategy = Walk_strategy::exit_rule;
+    if (stop_or_pass == Touch::stop)
       throw Error(Error_code::usage, "touch=\"stop\" needs kernel=\"exact\": touches are found exactly only");
   }
   return std::visit(
@@ -95,7 +95,8 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
                                 [&](const Snapshot<D>& snapshot, const Locator<D>& locator, std::size_t row,
                                     Edge_counts& counts) -> Answer<D> {
                                   if (!is_usable(from[row]) || !is_usable(to[row])) return {};
-                                  return answer_move(snapshot, locator, from[row], to[row], options, counts);
+                                  return answer_move(snapshot, locator, from[row], to[row], stop_or_pass,
+                                                     method, counts);
                                 });
       },
       *self.world);
@@ -106,8 +107,9 @@ Motions sweep_edges(const Shared_world& self, const py::object& p, const py::obj
                     const std::string& search, const std::string& search_cells, double tolerance,
                     const std::string& search_limit, int threads) {
   check_threads(threads);
+  Search_options searched;
   const Sweep_options options =
-      to_sweep_options({sweep, touch, search, search_cells, tolerance, search_limit});
+      to_sweep_options({sweep, touch, search, search_cells, tolerance, search_limit}, searched);
   return std::visit(
       [&]<int D>(const World<D>&) {
         const auto from = points_of<D>(p, "p"), to = points_of<D>(targets, "targets"),

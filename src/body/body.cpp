@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The public functions of Body: they check their arguments, and steps within a region end here.
 #include <cellwalk/body/body.h>
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>
 
@@ -58,8 +59,8 @@ template <int D>
                                           const Body_options& options, Step_report<D>& report,
                                           Body_counts& counts) {
   check_targets<D>(targets);
-  if (detail::bisects(options.sweep.search)) [[unlikely]]
-    detail::check_search(options.sweep);
+  if (options.sweep.search) [[unlikely]]
+    detail::check_search(*options.sweep.search);
   counts.moves += targets.size();
   if (targets.empty() || body.try_move_all_in_new_region(targets, options.clearance, counts)) return;
   if (options.rule == Step_rule::reject_at_target)
@@ -197,7 +198,7 @@ std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point
                                                const Body_options& options, Body_counts& counts) {
   if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   detail::check_finite(target, "the target of a vertex");
-  detail::check_search(options.sweep);
+  if (options.sweep.search) detail::check_search(*options.sweep.search);
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }

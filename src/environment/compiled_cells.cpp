@@ -4,7 +4,7 @@
 #include <cellwalk/internal/environment/cell_check.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

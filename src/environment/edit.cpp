@@ -9,7 +9,7 @@
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <array>

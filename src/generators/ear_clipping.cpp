@@ -3,7 +3,7 @@
 #include "ear_clipping.h"
 
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 // are neighbours along another: twelve around a centre for its three higher neighbours.
 #include <cellwalk/internal/generators/implicit.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <array>

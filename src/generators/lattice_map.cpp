@@ -3,7 +3,7 @@
 #include <cellwalk/generators/lattice_map.h>
 #include <cellwalk/internal/generators/placement.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // The corners of cells joined around each vertex, and vertices doubled where slits part them.
 #include <cellwalk/internal/generators/slits.h>
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <map>

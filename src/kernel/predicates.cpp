@@ -2,7 +2,7 @@
 // Normals by doubles, intervals or exact numbers, and tests of points in segments and polygons.
 #include <cellwalk/internal/kernel/exact_value.h>
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <CGAL/Interval_nt.h>
 

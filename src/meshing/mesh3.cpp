@@ -2,7 +2,7 @@
 // The bounds given to the helper of Mesh_3, scaled to a size without overflow, and its tetrahedra.
 #include <cellwalk/internal/meshing/mesh3.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "surface_topology.h"
 
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <array>

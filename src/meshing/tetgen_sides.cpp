@@ -3,7 +3,7 @@
 #include "tetgen_sides.h"
 
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <string>

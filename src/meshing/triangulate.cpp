@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The constrained triangulation of segments, and the marks of its regions and holes.
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/meshing/triangulate.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The walks from all sides of the start, of which the one that gets furthest is the answer.
 #include <cellwalk/internal/kernel/check_finite.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/kernel_choice.h>
 
 #include <vector>
 
@@ -21,11 +21,11 @@ Motion_status to_status(Walk_status status) {
 }
 
 template <class Kernel, int D>
-Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& to,
-                    const Move_options& options, Edge_counts& counts) {
-  const bool stops = options.touch == Touch::stop;
+Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& to, Touch touch,
+                    Walk_strategy strategy, Edge_counts& counts) {
+  const bool stops = touch == Touch::stop;
   const Walk_result<D> result =
-      walk<Kernel>(snapshot, particle, to, counts.walk, {options.strategy, nullptr, nullptr, !stops});
+      walk<Kernel>(snapshot, particle, to, counts.walk, strategy, {.locates_contact = !stops});
   Answer<D> answer{to_status(result.status), result.cells, result.cell, {}};
   if (stops) {
     answer.contact = first_touch(snapshot, particle, to, counts);
@@ -44,12 +44,12 @@ Answer<D> move_from(const Snapshot<D>& snapshot, const Particle<D>& particle, co
 
 template <class Kernel, int D>
 Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
-                 const Point<D>& to, const Move_options& options, Edge_counts& counts) {
+                 const Point<D>& to, Touch touch, Walk_strategy strategy, Edge_counts& counts) {
   const std::vector<Particle<D>> starts = locator.particles_at(from);
   Answer<D> best;
   best.status = Motion_status::outside;
   for (const Particle<D>& start : starts) {
-    const Answer<D> result = move_from<Kernel>(snapshot, start, to, options, counts);
+    const Answer<D> result = move_from<Kernel>(snapshot, start, to, touch, strategy, counts);
     const bool further = result.status == Motion_status::free ||
                          (result.contact && best.contact && result.contact->time > best.contact->time);
     if (best.status == Motion_status::outside || further) best = result;
@@ -62,16 +62,26 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const P
 
 template <int D>
 Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
-                      const Point<D>& to, const Move_options& options, Edge_counts& counts) {
+                      const Point<D>& to, Touch touch, const Walk_method& method, Edge_counts& counts) {
   detail::check_finite(to, "the target of a motion");
-  return with_kernel(options.kernel, [&](auto policy) {
-    return answer<decltype(policy)>(snapshot, locator, from, to, options, counts);
+  return with_kernel(method.kernel, [&](auto policy) {
+    return answer<decltype(policy)>(snapshot, locator, from, to, touch, method.strategy, counts);
   });
 }
 
-template Answer<2> answer_move(const Snapshot<2>&, const Locator<2>&, const Point<2>&, const Point<2>&,
-                               const Move_options&, Edge_counts&);
-template Answer<3> answer_move(const Snapshot<3>&, const Locator<3>&, const Point<3>&, const Point<3>&,
-                               const Move_options&, Edge_counts&);
+template <int D>
+Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
+                      const Point<D>& to, Touch touch, Edge_counts& counts) {
+  return answer_move(snapshot, locator, from, to, touch, {}, counts);
+}
+
+template Answer<2> answer_move(const Snapshot<2>&, const Locator<2>&, const Point<2>&, const Point<2>&, Touch,
+                               Edge_counts&);
+template Answer<2> answer_move(const Snapshot<2>&, const Locator<2>&, const Point<2>&, const Point<2>&, Touch,
+                               const Walk_method&, Edge_counts&);
+template Answer<3> answer_move(const Snapshot<3>&, const Locator<3>&, const Point<3>&, const Point<3>&, Touch,
+                               Edge_counts&);
+template Answer<3> answer_move(const Snapshot<3>&, const Locator<3>&, const Point<3>&, const Point<3>&, Touch,
+                               const Walk_method&, Edge_counts&);
 
 }  // namespace cellwalk

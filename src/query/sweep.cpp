@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The sweeps from all pairs of sides of the ends, of which the best one is the answer.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/internal/edge/all_chains.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/query/sweep.h>
@@ -61,7 +62,7 @@ template <int D>
 Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, const Edge_motion<D>& motion,
                        const Sweep_options& options, Edge_counts& counts) {
   detail::check_finite(motion.target, "the target of a motion");
-  detail::check_search(options);
+  if (options.search) detail::check_search(*options.search);
   const auto sweep = [&](const Start<D>& start, const Sweep_options& chosen) {
     return to_answer(sweep_edge(snapshot, start.p, motion.target, start.q, start.chain, chosen, counts));
   };
@@ -73,7 +74,7 @@ Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, c
   if (all.size() == 1 && !has_choice) return sweep(all.front(), options);
 
   Sweep_options exact = options;
-  exact.search = Contact_search::exact;
+  exact.search = nullptr;
   const Start<D>* best_start = nullptr;
   const auto try_all = [&](const std::list<Start<D>>& tried) {
     for (const Start<D>& start : tried) {
@@ -91,7 +92,7 @@ Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, c
     others = on_all_sides(snapshot, all, counts.walk);
     try_all(others);
   }
-  if (best.status == Motion_status::free || options.search == Contact_search::exact) return best;
+  if (best.status == Motion_status::free || !options.search) return best;
   return sweep(*best_start, options);
 }
 

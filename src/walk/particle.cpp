@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The test whether a point lies in a closed cell.
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/walk/particle.h>
 
 namespace cellwalk {

@@ -2,6 +2,7 @@
 // A walk by float planes alone, the late location of contacts, and the walks of all number policies.
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/walk_impl.h>
 
 #include <tuple>
@@ -58,7 +59,9 @@ template <int D>
 Walk_result<D> detail::walk_on_sides(const Snapshot<D>& snapshot, const Particle<D>& particle,
                                      const Point<D>& target, Walk_counts& counts, const Walk_options& options,
                                      Sides_taken& choices) {
-  return Particle_walk<Exact, D>(snapshot, particle, target, counts, options, &choices).run();
+  return Particle_walk<Exact, D>(snapshot, particle, target, counts, Walk_strategy::certified, options,
+                                 &choices)
+      .run();
 }
 
 template Walk_result<2> detail::walk_on_sides(const Snapshot<2>&, const Particle<2>&, const Point<2>&,
@@ -71,6 +74,10 @@ template void locate_contact(const Snapshot<3>&, const Point<3>&, const Point<3>
 #define CELLWALK_INSTANTIATE(KERNEL, D)                                                                      \
   template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,           \
                                           Walk_counts&, const Walk_options&);                                \
+  template Walk_result<D> walk<KERNEL, D>(const Snapshot<D>&, const Particle<D>&, const Point<D>&,           \
+                                          Walk_counts&, Walk_strategy, const Walk_options&);                 \
+  template Walk_result<D> move<KERNEL, D>(const Snapshot<D>&, Particle<D>&, const Point<D>&, Walk_counts&,   \
+                                          Walk_strategy, const Walk_options&);                               \
   template Walk_result<D> detail::move_by_walk<KERNEL, D>(const Snapshot<D>&, Particle<D>&, const Point<D>&, \
                                                           Walk_counts&, const Walk_options&);
 

@@ -9,8 +9,9 @@ import re
 import sys
 from pathlib import Path
 
-# The one header for users, which no file of the library includes. It includes the core, and what a first program needs besides.
-UMBRELLA = Path("include/cellwalk/cellwalk.h")
+# The headers for users and for those who repeat the paper, which no file of the library includes. They include the core, and what a first
+# program needs besides.
+UMBRELLAS = {Path("include/cellwalk/cellwalk.h"), Path("include/cellwalk/paper.h")}
 CORE = ["kernel", "records", "generators", "environment", "walk", "edge", "query", "body", "reshape"]
 # Headers that layers share and users do not see: <cellwalk/internal/LAYER/...>.
 SHARED = Path("src/shared")
@@ -110,7 +111,7 @@ def line_of(text, offset):
 def layer_of(path, root):
     """The layer of a file of include/cellwalk or src, None for files outside layers (build files)."""
     name = path.relative_to(root)
-    if name == UMBRELLA:
+    if name in UMBRELLAS:
         return "umbrella"
     start = 4 if is_internal(name) else 2 if name.parts[0] == "include" else 1
     return name.parts[start] if len(name.parts) > start + 1 else None

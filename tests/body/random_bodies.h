@@ -4,6 +4,7 @@
 #define CELLWALK_TESTS_BODY_RANDOM_BODIES_H
 
 #include <cellwalk/body/body.h>
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
@@ -116,8 +117,7 @@ class Random_bodies {
                                                      : Sweep::faces;
     if (random().below(3) == 0) options.rule = Step_rule::reject;
     if (random().below(4) == 0) options.sweep.touch = Touch::stop;
-    if (random().below(6) == 0)
-      options.sweep.search = random().below(2) == 0 ? Contact_search::dichotomic : Contact_search::exhaustive;
+    if (random().below(6) == 0) options.sweep.search = &searches[random().below(2)];
     options.most_contacts = 1 + static_cast<int>(random().below(4));
     if (call.kind == Call<D>::Kind::step_at_target) {
       options.rule = Step_rule::reject_at_target;
@@ -127,6 +127,8 @@ class Random_bodies {
   }
 
  private:
+  static constexpr std::array<Search_options, 2> searches{
+      {{Contact_search::dichotomic}, {Contact_search::exhaustive}}};
   static constexpr int many = 12;                   ///< simplices
   static constexpr std::uint32_t most_of_rod = 48;  ///< vertices
   static constexpr std::uint32_t side_of_block = D == 2 ? 6 : 4;

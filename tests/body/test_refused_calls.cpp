@@ -2,6 +2,7 @@
 // Calls that are refused change nothing: targets that are not finite, too few or too many of them, vertices
 // that are not there. A twin that was not called goes on with the same bytes.
 #include <cellwalk/body/body.h>
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/generators/transform.h>
 #include <cellwalk/kernel/error.h>
@@ -209,11 +210,11 @@ TYPED_TEST(RefusedCallsOf, TooFewOrTooManyTargets) {
 TYPED_TEST(RefusedCallsOf, SearchesThatNeedNotEnd) {
   constexpr int D = TypeParam::value;
   for (const double bad : {not_a_number, 0.0, -1.0, 1.5, unbounded})
-    for (const auto search : {Contact_search::dichotomic, Contact_search::dichotomic_segment}) {
+    for (const auto method : {Contact_search::dichotomic, Contact_search::dichotomic_segment}) {
       Body<D> body = this->box();
       Body_options options;
-      options.sweep.search = search;
-      options.sweep.tolerance = bad;
+      const Search_options search{method, bad};
+      options.sweep.search = &search;
       const auto targets = shifted_targets<D>(body, this->along(4));
       this->expect_refused(body, Error_code::usage, "tolerance", [&](auto& b, auto& report, auto& counts) {
         b.step(targets, options, report, counts);

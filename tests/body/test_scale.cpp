@@ -2,6 +2,7 @@
 // Everything times a power of two: every answer is the same times that, to the bit.
 #include <cellwalk/body/body.h>
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
@@ -98,10 +99,10 @@ void expect_scaled(const Copy<D>& one, const Copy<D>& other, const std::string& 
 Body_options options_of(std::uint64_t turn, bool sweeps_faces) {
   Body_options options;
   options.sweep.sweep = sweeps_faces ? Sweep::faces : turn % 2 == 0 ? Sweep::triangle : Sweep::three_segments;
-  options.sweep.search =
-      std::array{Contact_search::exact, Contact_search::exact, Contact_search::dichotomic,
-                 Contact_search::exhaustive, Contact_search::dichotomic_segment}[turn / 2 % 5];
-  options.sweep.tolerance = 0x1p-10;
+  static constexpr std::array<Search_options, 3> searches{{{Contact_search::dichotomic, 0x1p-10},
+                                                           {Contact_search::exhaustive},
+                                                           {Contact_search::dichotomic_segment, 0x1p-10}}};
+  if (const auto which = turn / 2 % 5; which >= 2) options.sweep.search = &searches[which - 2];
   if (turn % 7 == 3) options.sweep.touch = Touch::stop;
   options.clearance = turn % 3 != 0;
   return options;

@@ -94,8 +94,8 @@ class Sides_trial {
     detail::Sides_taken none;
     Edge_counts counts;
     Particle<D> moved = body.particles()[v];
-    const auto walked = detail::move_on_sides(snapshot_, moved, target, counts.walk,
-                                              {Walk_strategy::certified, &visited, &crossed}, &none);
+    const auto walked =
+        detail::move_on_sides(snapshot_, moved, target, counts.walk, {&visited, &crossed}, &none);
     moved.position = target;
     const Vertex_path<D> path{body.particles()[v], moved, visited, crossed, walked.contact.has_value()};
     std::optional<Contact<D>> first;

@@ -101,9 +101,7 @@ void for_each_sweep(Edge_world<D>& w, int edges, Walk_counts& counts, Sweep swee
       moved.from = p;
       w.choose_kind();
       const Point<D> target = w.target(p);
-      moved.contact =
-          move(w.snapshot, p, target, counts, {Walk_strategy::certified, &moved.visited, &moved.crossed})
-              .contact;
+      moved.contact = move(w.snapshot, p, target, counts, {&moved.visited, &moved.crossed}).contact;
       moved.to = p;
       if (moved.contact) {
         moved.to.position = target;

@@ -53,8 +53,7 @@ class Face_body {
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
     Outcome outcome;
-    outcome.vertex =
-        move(snapshot_, p, target, edge_counts.walk, {Walk_strategy::certified, &visited, &crossed}).contact;
+    outcome.vertex = move(snapshot_, p, target, edge_counts.walk, {&visited, &crossed}).contact;
     p.position = target;
     const Vertex_path<3> path{corners_[k], p, visited, crossed, outcome.vertex.has_value()};
     Chain next = chains_[k], last = reversed(snapshot_, chains_[i]);  // from p to the others

@@ -5,7 +5,7 @@
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <vector>

@@ -58,7 +58,7 @@ class Scene {
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
     Edge_counts counts;
-    const auto walked = move(snapshot, to, c.b, counts.walk, {Walk_strategy::certified, &visited, &crossed});
+    const auto walked = move(snapshot, to, c.b, counts.walk, {&visited, &crossed});
     const bool blocked = walked.status != Walk_status::arrived;
     if (blocked) to = particle(c.b, snapshot.index(visited.back()));
     const Vertex_path<D> path{from, to, visited, crossed, blocked};

@@ -260,7 +260,7 @@ TEST(EdgeOrders, CertificatesTakeTheSameSideOfAMembrane3) {
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   Particle<3> to = p;
-  ASSERT_FALSE(move(snapshot, to, target, walks, {Walk_strategy::certified, &visited, &crossed}).contact);
+  ASSERT_FALSE(move(snapshot, to, target, walks, {&visited, &crossed}).contact);
   std::vector<oracle::Placed_chain> chains;
   for (const bool has_certificates : {true, false}) {
     Edge_counts counts;

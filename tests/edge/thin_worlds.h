@@ -7,7 +7,7 @@
 #include <cellwalk/internal/generators/lattice_world.h>
 #include <cellwalk/internal/generators/slits.h>
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Certificates that boundary facets do not meet, against exact signs at places that corners may take.
 #include <cellwalk/internal/environment/parting.h>
 #include <cellwalk/internal/kernel/random.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <gtest/gtest.h>
 

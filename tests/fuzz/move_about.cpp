@@ -3,6 +3,7 @@
 
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/walk/locate.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ class Mover {
   void walk_once(const Particle<D>& p, const Point<D>& to, Walk_strategy strategy) {
     Walk_counts counts;
     std::vector<Cell> visited;
-    const Walk_result<D> result = walk(snapshot_, p, to, counts, {strategy, &visited});
+    const Walk_result<D> result = walk(snapshot_, p, to, counts, strategy, {&visited});
     demand(result.status != Walk_status::lost, "an exact walk is lost");
     if (result.status == Walk_status::arrived)
       demand(in_closure(snapshot_, result.cell, to) && !snapshot_.is_solid(result.cell),
@@ -120,8 +121,8 @@ class Mover {
     judge_triangle(p, to, q, edge.chain, options.certificates);
     options.sweep = in.flag() ? Sweep::triangle : Sweep::three_segments;
     options.touch = in.flag() ? Touch::stop : Touch::pass;
-    options.search = static_cast<Contact_search>(in.below(3));
-    options.cells = in.flag() ? Search_cells::traversed : Search_cells::flooded;
+    Search_options search;
+    options.search = take_search(in, search);
     const Sweep_result<D> result = sweep_edge(snapshot_, p, to, q, edge.chain, options, counts);
     if (result.contact)
       demand(Exact_time() <= result.contact->exact_time() && result.contact->exact_time() <= Exact_time(1),
@@ -138,8 +139,7 @@ class Mover {
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
     Particle<D> to = from;
-    const Walk_result<D> walked =
-        move(snapshot_, to, target, counts.walk, {Walk_strategy::certified, &visited, &crossed});
+    const Walk_result<D> walked = move(snapshot_, to, target, counts.walk, {&visited, &crossed});
     const bool blocked = walked.status != Walk_status::arrived;
     if (blocked) {
       to.position = target;

@@ -4,6 +4,7 @@
 #ifndef CELLWALK_TESTS_FUZZ_MOVE_ABOUT_H
 #define CELLWALK_TESTS_FUZZ_MOVE_ABOUT_H
 
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/walk/particle.h>
 
@@ -12,6 +13,15 @@
 #include "fuzz/decoder.h"
 
 namespace cellwalk::fuzz {
+
+/// A search with the bytes that it has had in inputs found so far, or none.
+inline const Search_options* take_search(Decoder& in, Search_options& search) {
+  const std::size_t method = in.below(3);
+  search.cells = in.flag() ? Search_cells::traversed : Search_cells::flooded;
+  if (method == 0) return nullptr;
+  search.method = static_cast<Contact_search>(method - 1);
+  return &search;
+}
 
 /// The point between two, or beyond them.
 template <int D>

@@ -3,7 +3,7 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/query/edge_cells.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/sweep.h>
 #include <cellwalk/reshape/reshaping.h>
 
@@ -78,25 +78,24 @@ class Use {
 
   Point<D> place() { return place_in(snapshot_, in_); }
 
-  Sweep_options sweep_options() {
+  Sweep_options sweep_options(Search_options& search) {
     Sweep_options options;
     options.sweep = static_cast<Sweep>(in_.below(3));
     options.touch = in_.flag() ? Touch::stop : Touch::pass;
-    options.search = static_cast<Contact_search>(in_.below(3));
-    options.cells = in_.flag() ? Search_cells::traversed : Search_cells::flooded;
+    options.search = take_search(in_, search);
     return options;
   }
 
   void ask_motion() {
     Edge_counts counts;
-    Move_options options;
-    options.kernel = static_cast<Kernel_choice>(in_.below(7));
-    options.strategy = static_cast<Walk_strategy>(in_.below(3));
-    options.touch = in_.flag() ? Touch::stop : Touch::pass;
+    Walk_method method;
+    method.kernel = static_cast<Kernel_choice>(in_.below(7));
+    method.strategy = static_cast<Walk_strategy>(in_.below(3));
+    const Touch touch = in_.flag() ? Touch::stop : Touch::pass;
     const Point<D> from = place(), to = place();
     answer_move(snapshot_, *locator_, from, to, {}, counts);
     ++opened_totals.motions;
-    answer_move(snapshot_, *locator_, from, to, options, counts);
+    answer_move(snapshot_, *locator_, from, to, touch, method, counts);
   }
 
   void ask_sweep() {
@@ -104,7 +103,8 @@ class Use {
     const Edge_motion<D> motion{place(), place(), place()};
     answer_sweep(snapshot_, *locator_, motion, {}, counts);
     ++opened_totals.sweeps;
-    answer_sweep(snapshot_, *locator_, motion, sweep_options(), counts);
+    Search_options search;
+    answer_sweep(snapshot_, *locator_, motion, sweep_options(search), counts);
   }
 
   /// A path, or in space also a triangle with its face.
@@ -132,7 +132,8 @@ class Use {
       const Point<D> to = place();
       for (Point<D>& x : targets) x = combination<D>(x, to, in_.flag() ? 1 : 0.25);
       Body_options options;
-      options.sweep = sweep_options();
+      Search_options search;
+      options.sweep = sweep_options(search);
       options.clearance = in_.flag();
       options.rule = in_.flag() ? Step_rule::reject : Step_rule::slide;
       if (in_.flag()) options.rule = Step_rule::reject_at_target;

@@ -2,6 +2,7 @@
 // Surfaces of public origin: clean ones are meshed, bad ones are refused for the reason they are bad.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/meshing/mesh3.h>
+#include <cellwalk/kernel/policies.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Questions about points and edges in no cell: two squares of the plane with a membrane between them.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/sweep.h>
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ class QueryAnswers : public testing::Test {
     return Environment<2>::build(std::move(soup));
   }
 
-  Answer<2> move(const Point<2>& from, const Point<2>& to, const Move_options& options = {}) {
-    return answer_move(snapshot_, locator_, from, to, options, counts_);
+  Answer<2> move(const Point<2>& from, const Point<2>& to, Touch touch = Touch::pass) {
+    return answer_move(snapshot_, locator_, from, to, touch, counts_);
   }
   Answer<2> sweep(const Edge_motion<2>& motion, const Sweep_options& options = {}) {
     return answer_sweep(snapshot_, locator_, motion, options, counts_);
@@ -53,17 +53,21 @@ TEST_F(QueryAnswers, EveryKernelAnswersPlainMotionsAlike) {
                                      Kernel_choice::double_precision, Kernel_choice::double_tolerance_6,
                                      Kernel_choice::double_tolerance_9, Kernel_choice::float_precision}) {
     const std::uint64_t before = counts_.walk.walks;
-    const Move_options options{kernel, Walk_strategy::exit_rule, Touch::pass};
-    EXPECT_EQ(move({0.25, 0.5}, {0.75, 0.25}, options).status, Motion_status::free);
-    EXPECT_EQ(move({0.25, 0.5}, {1.75, 0.25}, options).status, Motion_status::contact);
-    EXPECT_EQ(move({5, 5}, {0, 0}, options).status, Motion_status::outside);
+    const auto status = [&](const Point<2>& from, const Point<2>& to) {
+      return answer_move(snapshot_, locator_, from, to, Touch::pass, {kernel, Walk_strategy::exit_rule},
+                         counts_)
+          .status;
+    };
+    EXPECT_EQ(status({0.25, 0.5}, {0.75, 0.25}), Motion_status::free);
+    EXPECT_EQ(status({0.25, 0.5}, {1.75, 0.25}), Motion_status::contact);
+    EXPECT_EQ(status({5, 5}, {0, 0}), Motion_status::outside);
     EXPECT_EQ(counts_.walk.walks - before, 2u) << "nothing walks from outside";
   }
 }
 
 TEST_F(QueryAnswers, TouchesCountWhereTheyAreAskedFor) {
   EXPECT_EQ(move({0.5, 0.5}, {1, 0.5}).status, Motion_status::free);
-  EXPECT_EQ(move({0.5, 0.5}, {1, 0.5}, {.touch = Touch::stop}).status, Motion_status::contact);
+  EXPECT_EQ(move({0.5, 0.5}, {1, 0.5}, Touch::stop).status, Motion_status::contact);
 }
 
 TEST_F(QueryAnswers, EdgesAreLinkedOnOneSideOrOutside) {

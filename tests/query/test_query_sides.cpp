@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Motions whose sides of walls are not given are free if they are on some: judged by all combinations of
 // sides of their ends, of walls in the line of the edge, and of walls on the way.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/query/move.h>
 #include <cellwalk/query/sweep.h>
@@ -94,9 +95,10 @@ class Query_trial {
           answer_sweep<D>(snapshot_, locator_, {p, t, q}, {.sweep = Sweep::three_segments}, counts_);
       ASSERT_EQ(segments.status, Motion_status::free) << "three segments";
     }
-    for (const Contact_search search : {Contact_search::dichotomic, Contact_search::exhaustive}) {
-      const Answer<D> other = answer_sweep<D>(snapshot_, locator_, {p, t, q}, {.search = search}, counts_);
-      ASSERT_EQ(other.status, expected) << "search " << static_cast<int>(search);
+    for (const Contact_search method : {Contact_search::dichotomic, Contact_search::exhaustive}) {
+      const Search_options search{method};
+      const Answer<D> other = answer_sweep<D>(snapshot_, locator_, {p, t, q}, {.search = &search}, counts_);
+      ASSERT_EQ(other.status, expected) << "search " << static_cast<int>(method);
     }
   }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Whatever takes coordinates or a particle refuses what is not finite, and particles without a cell, and
 // leaves the particle as it was.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/query/edge_cells.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/sweep.h>
 
 #include <gtest/gtest.h>
@@ -69,13 +70,8 @@ struct Point_calls {
     Edge_counts counts;
     Walk_counts& walks = counts.walk;
     const Chain chain = find_chain(snapshot, particle, other, walks).chain;
-    Walk_options exit_rule, forecast;
-    exit_rule.strategy = Walk_strategy::exit_rule;
-    forecast.strategy = Walk_strategy::predictive_simplex;
-    Move_options stop, in_floats;
-    stop.touch = Touch::stop;
-    in_floats.kernel = Kernel_choice::float_precision;
-    in_floats.strategy = Walk_strategy::exit_rule;
+    const auto exit_rule = Walk_strategy::exit_rule, forecast = Walk_strategy::predictive_simplex;
+    const Walk_method in_floats{Kernel_choice::float_precision, exit_rule};
     switch (number) {
       case 0:
         return void(move(snapshot, moved, x, walks));
@@ -116,9 +112,9 @@ struct Point_calls {
       case 18:
         return void(answer_move(snapshot, locator, x, there, {}, counts));
       case 19:
-        return void(answer_move(snapshot, locator, here, x, stop, counts));
+        return void(answer_move(snapshot, locator, here, x, Touch::stop, counts));
       case 20:
-        return void(answer_move(snapshot, locator, here, x, in_floats, counts));
+        return void(answer_move(snapshot, locator, here, x, Touch::pass, in_floats, counts));
       case 21:
         return void(answer_sweep<D>(snapshot, locator, {x, near, there}, {}, counts));
       case 22:
@@ -170,8 +166,7 @@ void expect_particles_are_refused() {
     Particle<D> bad{all<D>(1.5), cell, D, 0};
     const Particle<D> before = bad;
     Edge_counts counts;
-    Walk_options exit_rule;
-    exit_rule.strategy = Walk_strategy::exit_rule;
+    const auto exit_rule = Walk_strategy::exit_rule;
     const std::vector<std::function<void(const Point<D>&)>> calls{
         [&](const Point<D>& x) { move(snapshot, bad, x, counts.walk); },
         [&](const Point<D>& x) { move(snapshot, bad, x, counts.walk, exit_rule); },
@@ -208,14 +203,13 @@ TEST(RefusedQueries, TolerancesAndLengthsThatAreNone) {
   const Locator<2> locator(snapshot);
   const Edge_motion<2> through_a_wall{{0.5, 0.5}, {-1, 0.5}, {0.75, 1.5}};
   for (const double bad : {not_a_number, 0.0, -1.0, 1.5, unbounded})
-    for (const auto search : {Contact_search::dichotomic, Contact_search::dichotomic_segment}) {
-      Sweep_options options;
-      options.search = search;
-      options.tolerance = bad;
+    for (const auto method : {Contact_search::dichotomic, Contact_search::dichotomic_segment}) {
+      Search_options search{method, bad};
+      const Sweep_options options{.search = &search};
       Edge_counts counts;
       EXPECT_EQ(refusal_of([&] { answer_sweep(snapshot, locator, through_a_wall, options, counts); }),
                 Error_code::usage);
-      options.search = Contact_search::exact;
+      search.method = Contact_search::exhaustive;
       EXPECT_FALSE(refusal_of([&] { answer_sweep(snapshot, locator, through_a_wall, options, counts); }));
     }
   for (const double bad : {not_a_number, -not_a_number, -1.0, unbounded, -unbounded})

@@ -7,7 +7,7 @@
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/environment/boundary_index.h>
 #include <cellwalk/internal/walk/signs.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #define CELLWALK_TESTS_WALK_ORACLE_TRIAL_H
 
 #include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <array>
 #include <cstddef>
@@ -62,10 +63,7 @@ Walker_under_test<D> walker(Walk_strategy strategy, const char* strategy_name) {
           [strategy](const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
                      std::vector<Cell>& visited) {
             Walk_counts counts;
-            Walk_options options;
-            options.strategy = strategy;
-            options.visited = &visited;
-            return walk<Kernel>(snapshot, particle, target, counts, options);
+            return walk<Kernel>(snapshot, particle, target, counts, strategy, {&visited});
           },
           Kernel::is_exact ? Sides_due::furthest : Sides_due::any};
 }

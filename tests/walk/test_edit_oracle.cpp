@@ -2,7 +2,7 @@
 // Environments after many edits, judged by the oracle: they are certified, equal to what compiling them from
 // scratch gives, and walks in them are right. Particles left in cells that are gone are refused.
 #include <cellwalk/internal/environment/gluing.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <gtest/gtest.h>
 
@@ -208,7 +208,7 @@ TEST(EditOracle, AWallIsMetWhoseVerticesCameToLieOnOneLine) {
     for (const Walk_strategy strategy : {Walk_strategy::certified, Walk_strategy::exit_rule}) {
       Walk_counts counts;
       const Point<3> below = particle.position - Vector<3>{0, 0, 5};
-      const Walk_result<3> result = walk(snapshot, particle, below, counts, {strategy});
+      const Walk_result<3> result = walk(snapshot, particle, below, counts, strategy);
       ASSERT_EQ(result.status, Walk_status::contact) << "corner " << v;
       EXPECT_EQ(result.contact->point[2], 0);
       EXPECT_EQ(result.contact->normal, (Vector<3>{0, 0, 1}));

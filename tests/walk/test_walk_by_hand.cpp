@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Walk and locate where the answer is known by heart: every strategy, the cells crossed, there and back.
 #include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/locate.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <gtest/gtest.h>
 
@@ -48,10 +49,7 @@ class Scene {
       particle.dimension = locator_.locate(from).dimension;
       Walk_counts counts;
       std::vector<Cell> visited;
-      Walk_options options;
-      options.strategy = strategy;
-      options.visited = &visited;
-      Way<D> way{cellwalk::walk(snapshot_, particle, to, counts, options), {}};
+      Way<D> way{cellwalk::walk(snapshot_, particle, to, counts, strategy, {&visited}), {}};
       for (Cell c : visited) way.cells.push_back(snapshot_.index(c));
       EXPECT_EQ(counts.walks, 1u);
       if (strategy == strategies[0]) {

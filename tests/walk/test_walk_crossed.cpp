@@ -2,7 +2,7 @@
 // The facets that a walk reports as crossed lead, one by one, through the cells it visited.
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ Seen walk_worlds(Walk_strategy strategy) {
       std::vector<Cell> visited;
       std::vector<Half_facet> crossed;
       Walk_counts counts;
-      const auto result = walk(snapshot, particle, target, counts, {strategy, &visited, &crossed});
+      const auto result = walk(snapshot, particle, target, counts, strategy, {&visited, &crossed});
       expect_a_way(snapshot, particle.cell, result, visited, crossed);
       ++seen.walks;
       seen.crossings += static_cast<int>(crossed.size());

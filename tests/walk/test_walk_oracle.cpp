@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The exact walk against the oracle: no miss, no false hit, no endless walk, in any position. docs/walk.md
+#include <cellwalk/kernel/policies.h>
+
 #include <gtest/gtest.h>
 
 #include <iostream>

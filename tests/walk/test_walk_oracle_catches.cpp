@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The oracle must catch walks that are wrong: rounded signs, and an exact rule broken on purpose.
+#include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/walk_impl.h>
 
 #include <gtest/gtest.h>

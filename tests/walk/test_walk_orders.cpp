@@ -63,8 +63,7 @@ class Orders {
     for (std::size_t k = 0; k < worlds_.size(); ++k)
       for (const Walk_strategy strategy : strategies) {
         Walk_counts counts;
-        const auto result =
-            walk<Exact>(worlds_[k].snapshot, particles_[k], to, counts, {.strategy = strategy});
+        const auto result = walk<Exact>(worlds_[k].snapshot, particles_[k], to, counts, strategy);
         if (strategy == Walk_strategy::certified) results[k] = result;
         if (k == 0 && strategy == Walk_strategy::certified) continue;
         agree &= is_alike(results[0], k, result, to, trace, truth);

@@ -148,13 +148,12 @@ class Library_double {
   unsigned vertex(std::size_t body, std::size_t v, const Point<3>*, const Point<3>& target, Counter&) {
     Particle<3>* const particles = particles_.data() + body * trace_vertices;
     Particle<3> p = particles[v];
-    unsigned answer =
-        move<Double>(library_->snapshot, p, target, counts_, options).status != Walk_status::arrived;
+    unsigned answer = move<Double>(library_->snapshot, p, target, counts_).status != Walk_status::arrived;
     if (answer) p = particles[v];
     for (std::size_t k = 0; k < trace_edges; ++k) {
       const Particle<3>& q = particles[trace_neighbour(v, k)];
       if (p.cell == q.cell) continue;
-      const Walk_result<3> way = walk<Double>(library_->snapshot, p, q.position, counts_, options);
+      const Walk_result<3> way = walk<Double>(library_->snapshot, p, q.position, counts_);
       answer |= static_cast<unsigned>(way.status != Walk_status::arrived) << (k + 1);
     }
     if (!answer) particles[v] = p;
@@ -167,7 +166,6 @@ class Library_double {
   }
 
  private:
-  static constexpr Walk_options options{Walk_strategy::exit_rule, nullptr, nullptr};
   std::shared_ptr<Library> library_;
   const Grid_world* world_;
   std::vector<Particle<3>> particles_;

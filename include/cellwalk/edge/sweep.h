@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The first contact of a vertex and an edge at it during a move: a common interface to all sweeps and
-// searches. Paper: section III. Theory: docs/sweep.md.
+// The first contact of a vertex and an edge at it during a move: a common interface to all sweeps. Paper:
+// section III. Theory: docs/sweep.md.
 #ifndef CELLWALK_EDGE_SWEEP_H
 #define CELLWALK_EDGE_SWEEP_H
 
@@ -27,45 +27,16 @@ enum class Touch {
   stop   ///< also a closed wall that meets the closed swept triangle off its start
 };
 
-/// The method that locates a contact, once its existence is known.
-enum class Contact_search {
-  exact,       ///< the first event at which the motion cannot be continued
-  dichotomic,  ///< bisection of complete sweeps: the longest motion found free, within a bound
-  /// The paper's bisection: a temporary particle walks along the edge from the position of p at each time.
-  /// The edge is free at the time found and blocked within a bound after it. Obstacles that it met and left
-  /// before are not found, so the time may be late.
-  dichotomic_segment,
-  /// The first of the obstacle vertices (2D) or edges (3D) of the cells met that lie in the swept triangle.
-  exhaustive
-};
-
-/// The cells whose obstacles an exhaustive search examines.
-enum class Search_cells {
-  flooded,   ///< those that the swept triangle meets: complete
-  traversed  ///< those that the edge crosses at its end: the paper's
-};
+struct Search_options;
 
 struct Sweep_options {
   Sweep sweep = Sweep::triangle;
   Touch touch = Touch::pass;
-  Contact_search search = Contact_search::exact;
-  Search_cells cells = Search_cells::flooded;
-  /// Whether an exhaustive search skips obstacles that signs find outside the swept triangle, beyond the edge
-  /// at its end (the paper's limit). The answer does not depend on it.
-  bool below = true;
-  bool certificates = true;    ///< false: events decide all; this costs time, and changes no answer
-  double tolerance = 0x1p-20;  ///< of dichotomic searches: length of the final interval of time, in (0,1]
+  bool certificates = true;  ///< false: events decide all; this costs time, and changes no answer
+  /// If set, edges locate their contacts by a search of the paper (<cellwalk/paper.h>), not at the first
+  /// event after which the motion cannot be continued. It is read during the call only.
+  const Search_options* search = nullptr;
 };
-
-namespace detail {
-
-inline bool bisects(Contact_search search) {
-  return search == Contact_search::dichotomic || search == Contact_search::dichotomic_segment;
-}
-/// \throw Error(usage) for a dichotomic search whose tolerance does not lie in (0,1]: it need not end
-void check_search(const Sweep_options& options);
-
-}  // namespace detail
 
 /// Moves p to a target, with an edge from it to q, which stands still: free if it is on some sides of walls.
 /// \param snapshot in which the edge lies
@@ -73,16 +44,13 @@ void check_search(const Sweep_options& options);
 /// \param target finite
 /// \param q the end that stands still
 /// \param before the chain of the edge before the move
-/// \param options the sweep, the search and its tolerance
+/// \param options the sweep
 /// \param counts raised by the sweep
 /// \pre p and q satisfy I1
 /// \throw Error(usage) for p or q without a cell, or in one that an edit removed, if its name is not reused,
-///        and for a dichotomic search unless options.tolerance lies in (0,1]; Error(input) for a target or q
-///        that is not finite
+///        and for a search of a tolerance not in (0,1]; Error(input) for a target or q that is not finite
 /// Degenerate cases: all are decided, see sweep_triangle().
-/// Cost: that of the walk and the sweep, and of the search: exact: none; dichotomic: log2(1/tolerance)
-/// sweeps; dichotomic_segment: as many walks of p and of the edge; exhaustive: some rational arithmetic for
-/// each wall of the cells.
+/// Cost: that of the walk and the sweep, and of a search.
 template <int D>
 Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
@@ -94,7 +62,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
 /// \param path the path of p
 /// \param q the end that stands still
 /// \param before the chain of the edge before the move
-/// \param options the sweep, the search and its tolerance
+/// \param options the sweep
 /// \param counts raised by the sweep
 /// \param met the first contact of the complete sweep, if it is known: it is not looked for again
 /// \pre if the path is blocked, path.visited holds the cells of the walk

@@ -1,36 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Number policies. Every predicate of the library is the sign of an orientation of input points, computed by
-// one of these policies:
+// Number policies that Exact is compared with, by those who repeat the paper:
 //
-//   Exact        double arithmetic with a forward error bound, then interval, then exact arithmetic:
-//                always right
 //   Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
 //   Unfiltered   rational arithmetic for every sign, without a filter: always right
-//   Double       the sign of the rounded determinant: wrong near degeneracies; for experiments only
-//   Tolerant<n>  the same, but 0 within 10^-n; for experiments only
-//   Float        the rounded sign in single precision; for experiments only
-//
-// Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
-//   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)
-//   orientation(p,q,r,s) > 0  s lies on the side of plane pqr to which (q-p) x (r-p) points (3D)
+//   Double       the sign of the rounded determinant: wrong near degeneracies
+//   Tolerant<n>  the same, but 0 within 10^-n
+//   Float        the rounded sign in single precision
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
 
-#include <cellwalk/internal/kernel/counts.h>
-#include <cellwalk/kernel/point.h>
+#include <cellwalk/kernel/exact.h>
 
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <string_view>
 
 namespace cellwalk {
 
 namespace detail {
 
-/// Exact sign by CGAL's filtered kernel; the slow path of Exact.
-int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r);
-int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
 /// Exact sign by CGAL's lazy exact kernel.
 int orientation_lazy(const Point<2>& p, const Point<2>& q, const Point<2>& r);
 int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
@@ -38,88 +24,7 @@ int orientation_lazy(const Point<3>& p, const Point<3>& q, const Point<3>& r, co
 int orientation_rational(const Point<2>& p, const Point<2>& q, const Point<2>& r);
 int orientation_rational(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
 
-/// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075,
-/// which 16u times this allowance covers whatever the outer factor is.
-inline constexpr double underflow_allowance = 1e-290;
-
-/// The rounded determinant of a 2D orientation, and the sum of the magnitudes of its terms.
-template <class T>
-struct Determinant {
-  T value;
-  T magnitude;
-};
-
-template <class T>
-inline Determinant<T> determinant(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
-  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]);
-  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]);
-  const T left = ax * by, right = ay * bx;
-  return {left - right, std::abs(left) + std::abs(right)};
-}
-
-template <class T>
-inline Determinant<T> determinant(const Point<3>& p, const Point<3>& q, const Point<3>& r,
-                                  const Point<3>& s) {
-  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]), az = T(q[2]) - T(p[2]);
-  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]), bz = T(r[2]) - T(p[2]);
-  const T cx = T(s[0]) - T(p[0]), cy = T(s[1]) - T(p[1]), cz = T(s[2]) - T(p[2]);
-  const T ab = ax * by, ba = ay * bx, bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax;
-  const T value = (ab - ba) * cz + (bc - cb) * az + (ca - ac) * bz;
-  const T tiny = T(underflow_allowance);
-  const T magnitude = (std::abs(ab) + std::abs(ba) + tiny) * std::abs(cz) +
-                      (std::abs(bc) + std::abs(cb) + tiny) * std::abs(az) +
-                      (std::abs(ca) + std::abs(ac) + tiny) * std::abs(bz);
-  return {value, magnitude};
-}
-
-template <class T>
-inline int sign_of(T x) {
-  return (x > T(0)) - (x < T(0));
-}
-
-/// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each
-/// coordinate difference has a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in
-/// 2D. The magnitude, with which the error is compared, is rounded down by as many. 16u covers both with a
-/// margin.
-inline constexpr double orientation_error = 16 * 0x1p-53;
-/// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by
-/// 2^-1075, far less than 16u times 1e-250); above it a term may have overflowed.
-inline constexpr double smallest_magnitude = 1e-250;
-inline constexpr double largest_magnitude = 1e+300;
-
 }  // namespace detail
-
-/// Counts of the signs that a policy computed, and of those that needed more than double arithmetic.
-struct Predicate_counts {
-  std::uint64_t orientations = 0;  ///< signs of orientations computed
-  std::uint64_t fallbacks = 0;     ///< signs that the filter left undecided
-
-  static constexpr std::array<std::string_view, 2> names{"orientations", "exact_fallbacks"};
-};
-static_assert(names_all_before<Predicate_counts>(sizeof(Predicate_counts)));
-
-/// Exact signs at the cost of double arithmetic in nearly all cases. The default.
-/// Cost: about 5 ns if the filter decides; 0.1 us where points lie some ulp off a plane; to 10 us where
-/// they lie in one that is not parallel to an axis, and no two of them coincide.
-struct Exact {
-  static constexpr bool is_exact = true;
-  static constexpr bool uses_certificates = true;
-  static constexpr const char* name = "exact";
-
-  template <class... P>
-  static int orientation(Predicate_counts& counts, const P&... points) {
-    ++counts.orientations;
-    const auto d = detail::determinant<double>(points...);
-    const double bound = detail::orientation_error * d.magnitude;
-    // A NaN fails both comparisons and is decided below.
-    if (d.magnitude > detail::smallest_magnitude && d.magnitude < detail::largest_magnitude) {
-      if (d.value > bound) return 1;
-      if (d.value < -bound) return -1;
-    }
-    ++counts.fallbacks;
-    return detail::orientation_cgal(points...);
-  }
-};
 
 /// Exact signs by CGAL's lazy exact kernel, without certificates.
 struct Lazy {
@@ -148,7 +53,7 @@ struct Unfiltered {
   }
 };
 
-/// Rounded signs in double precision: misses walls near degeneracies. For experiments.
+/// Rounded signs in double precision: misses walls near degeneracies.
 struct Double {
   static constexpr bool is_exact = false;
   static constexpr bool uses_certificates = false;
@@ -163,7 +68,7 @@ struct Double {
 
 /// Rounded signs in double precision that are 0 up to a fixed tolerance, as is common practice. The tolerance
 /// is 10^-Digits, in units of the area (2D) or volume (3D) of the determinant, so it depends on the scale of
-/// the input. For experiments.
+/// the input.
 template <int Digits>
 struct Tolerant {
   static_assert(Digits == 6 || Digits == 9);
@@ -180,7 +85,7 @@ struct Tolerant {
   }
 };
 
-/// Rounded signs in single precision. For experiments.
+/// Rounded signs in single precision.
 struct Float {
   static constexpr bool is_exact = false;
   static constexpr bool uses_certificates = false;

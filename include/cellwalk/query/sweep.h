@@ -22,16 +22,15 @@ struct Edge_motion {
 ///
 /// An end on a wall with free space on several sides may belong to each of them, and the edge may pass walls
 /// in its line on several sides. Those are chosen with which the motion gets furthest, by exact times; in
-/// ties those with the lowest index of the cell of p, then of the cell of q. Other searches for the contact
-/// use these.
+/// ties those with the lowest index of the cell of p, then of the cell of q.
 /// \param snapshot of the environment
 /// \param locator finds the cells of both ends
 /// \param motion of finite points
-/// \param options the sweep, the search and its tolerance
+/// \param options the sweep
 /// \param counts raised by the query
 /// \pre the locator is that of the snapshot
-/// \throw Error(input) for a point that is not finite; Error(usage) as Locator::locate(), and for a
-///        dichotomic search unless options.tolerance lies in (0,1]
+/// \throw Error(input) for a point that is not finite; Error(usage) as Locator::locate(), and for a search of
+///        a tolerance not in (0,1]
 /// Cost: that of locating two points, finding a chain and sweep_edge(), for each combination of sides.
 /// Thread-safe, if each thread has its own counts.
 template <int D>

@@ -4,7 +4,7 @@
 #define CELLWALK_WALK_WALK_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/walk/contact.h>
 #include <cellwalk/walk/particle.h>
 
@@ -17,17 +17,8 @@
 
 namespace cellwalk {
 
-/// The method that finds the exit facet of a cell.
-enum class Walk_strategy {
-  certified,          ///< planes with an error bound first, exact signs if they are undecided (needs Exact)
-  exit_rule,          ///< exact signs of all facets, then of the ridges
-  predictive_simplex  ///< the paper's (section II): turn from facet to facet until the target lies in the
-                      ///< cone of the aimed facet
-};
-
 /// The vectors are written during the call only.
 struct Walk_options {
-  Walk_strategy strategy = Walk_strategy::certified;
   /// If set, the cells entered are appended, the first one included.
   std::vector<Cell>* visited = nullptr;
   /// If set, the passable facets crossed are appended, each seen from the cell that the motion leaves. At a
@@ -81,7 +72,7 @@ struct Walk_result {
 /// \param particle the start, with its cell
 /// \param target finite
 /// \param counts raised by the walk
-/// \param options the strategy, and vectors to which the path is appended
+/// \param options vectors to which the path is appended
 /// \pre particle.position lies in the closure of particle.cell
 /// \throw Error(usage) for a particle without a cell, or in one that an edit removed, if its name is not
 ///        reused: locate yours again after cells were replaced; Error(input) for a target that is not finite;
@@ -173,8 +164,7 @@ inline Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, c
                            Walk_counts& counts, const Walk_options& options = {}) {
   detail::check_has_planes(snapshot, particle.cell);
   if constexpr (Kernel::uses_certificates) {
-    if (options.strategy == Walk_strategy::certified &&
-        detail::certainly_inside(snapshot, particle.cell, target, counts)) {
+    if (detail::certainly_inside(snapshot, particle.cell, target, counts)) {
       if (options.visited) options.visited->push_back(particle.cell);
       ++counts.walks;
       ++counts.stays;

@@ -12,6 +12,7 @@
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
+#include <cellwalk/walk/strategy.h>
 #include <cellwalk/walk/walk.h>
 
 #include <boost/container/small_vector.hpp>
@@ -25,18 +26,19 @@ class Particle_walk {
  public:
   /// \param choices if not null, the sides to take; others taken are appended
   Particle_walk(const Snapshot<D>& snapshot, const Particle<D>& from, const Point<D>& to, Walk_counts& counts,
-                const Walk_options& options, Sides_taken* choices = nullptr)
+                Walk_strategy strategy, const Walk_options& options, Sides_taken* choices = nullptr)
       : snapshot_(snapshot),
         a_(from.position),
         b_(to),
         counts_(counts),
+        strategy_(strategy),
         options_(options),
         choices_(choices),
         cell_(from.cell) {
     result_.aimed = from.aimed;
     starts_inside_ = from.dimension == D;
     in_boundary_ = !starts_inside_;
-    if (Kernel::uses_certificates && options.strategy == Walk_strategy::certified)
+    if (Kernel::uses_certificates && strategy == Walk_strategy::certified)
       planes_b_ = snapshot.frame().map(b_, y_b_);
     check_has_planes(snapshot, cell_);
     if (planes_b_) return;  // points in the frame are finite
@@ -154,7 +156,7 @@ class Particle_walk {
 
   Exit find_exit(const Cell_view<D>& cell) {
     if (planes_b_) return exit_after_doubt(cell);
-    if (options_.strategy == Walk_strategy::predictive_simplex && starts_inside_ && !in_boundary_ && a_ != b_)
+    if (strategy_ == Walk_strategy::predictive_simplex && starts_inside_ && !in_boundary_ && a_ != b_)
       return predictive_exit(cell);
     return exit_by_rule(cell);
   }
@@ -330,6 +332,7 @@ class Particle_walk {
   const Snapshot<D>& snapshot_;
   const Point<D> a_, b_;
   Walk_counts& counts_;
+  const Walk_strategy strategy_;
   const Walk_options& options_;
   Sides_taken* choices_;
   std::size_t choices_passed_ = 0;
@@ -351,18 +354,26 @@ class Particle_walk {
 
 template <class Kernel, int D>
 Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
-                    Walk_counts& counts, const Walk_options& options) {
-  Walk_result<D> result = detail::Particle_walk<Kernel, D>(snapshot, particle, target, counts, options).run();
+                    Walk_counts& counts, Walk_strategy strategy, const Walk_options& options) {
+  Walk_result<D> result =
+      detail::Particle_walk<Kernel, D>(snapshot, particle, target, counts, strategy, options).run();
   if constexpr (Kernel::is_exact) {
     if (result.had_choice && result.contact) [[unlikely]]
-      result = detail::furthest_walk(snapshot, particle.position, target, options,
-                                     [&](const Walk_options& recorded, detail::Sides_taken& choices) {
-                                       return detail::Particle_walk<Kernel, D>(snapshot, particle, target,
-                                                                               counts, recorded, &choices)
-                                           .run();
-                                     });
+      result =
+          detail::furthest_walk(snapshot, particle.position, target, options,
+                                [&](const Walk_options& recorded, detail::Sides_taken& choices) {
+                                  return detail::Particle_walk<Kernel, D>(snapshot, particle, target, counts,
+                                                                          strategy, recorded, &choices)
+                                      .run();
+                                });
   }
   return result;
+}
+
+template <class Kernel, int D>
+Walk_result<D> walk(const Snapshot<D>& snapshot, const Particle<D>& particle, const Point<D>& target,
+                    Walk_counts& counts, const Walk_options& options) {
+  return walk<Kernel>(snapshot, particle, target, counts, Walk_strategy::certified, options);
 }
 
 template <class Kernel, int D>
@@ -370,11 +381,16 @@ Walk_result<D> detail::move_by_walk(const Snapshot<D>& snapshot, Particle<D>& pa
                                     const Point<D>& target, Walk_counts& counts,
                                     const Walk_options& options) {
   const Walk_result<D> result = walk<Kernel>(snapshot, particle, target, counts, options);
-  if (result.status != Walk_status::arrived) return result;
-  particle.position = target;
-  particle.cell = result.cell;
-  particle.dimension = result.dimension;
-  particle.aimed = result.aimed;
+  if (result.status == Walk_status::arrived) particle = {target, result.cell, result.dimension, result.aimed};
+  return result;
+}
+
+template <class Kernel, int D>
+Walk_result<D> move(const Snapshot<D>& snapshot, Particle<D>& particle, const Point<D>& target,
+                    Walk_counts& counts, Walk_strategy strategy, const Walk_options& options) {
+  if (strategy == Walk_strategy::certified) return move<Kernel>(snapshot, particle, target, counts, options);
+  const Walk_result<D> result = walk<Kernel>(snapshot, particle, target, counts, strategy, options);
+  if (result.status == Walk_status::arrived) particle = {target, result.cell, result.dimension, result.aimed};
   return result;
 }
 

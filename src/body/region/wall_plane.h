@@ -4,7 +4,7 @@
 #ifndef CELLWALK_BODY_REGION_WALL_PLANE_H
 #define CELLWALK_BODY_REGION_WALL_PLANE_H
 
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <array>

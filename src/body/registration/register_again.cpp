@@ -2,7 +2,7 @@
 // The sides of walls of a body before edits, by the new names of cells and facets.
 #include "register_again.h"
 
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -18,7 +18,7 @@ bool stop(Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, con
   if (met.exact_time() == Exact_time()) return false;
   const Point<D> from = body.positions[vertex];
   Sweep_options tried = options;
-  tried.search = Contact_search::exact;  // whether there is a contact matters, not where
+  tried.search = nullptr;  // whether there is a contact matters, not where
   return try_stops<D>(from, target, met, [&](const Point<D>& x) {
     if (x == from) return false;
     ++counts.stop_tries;

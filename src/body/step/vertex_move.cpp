@@ -41,8 +41,8 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   const Particle<D> from = body.particles[vertex];
   to = from;
   scratch.clear_walk();
-  walked = move_on_sides(snapshot, to, target, counts.edges.walk,
-                         {Walk_strategy::certified, &scratch.visited, &scratch.crossed, !any}, choices);
+  walked = move_on_sides(snapshot, to, target, counts.edges.walk, {&scratch.visited, &scratch.crossed, !any},
+                         choices);
   to.position = target;
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, walked.contact.has_value()};
   std::optional<Contact<D>> first;
@@ -161,7 +161,7 @@ std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch<D>& scr
   if (contact && may_pass_on_other_sides(snapshot, from, target, walked, *contact, options.touch,
                                          counts.edges.walk)) [[unlikely]] {
     Sweep_options exact = options;
-    exact.search = Contact_search::exact;
+    exact.search = nullptr;
     Sides_taken choices;
     contact = furthest_move<D>(snapshot, from, target, choices,
                                [&](Sides_taken& tried) { return move(exact, false, &tried); });

@@ -4,7 +4,7 @@
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/kernel/fraction.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <fmt/format.h>
 
@@ -34,8 +34,8 @@ struct Shown_walk {
 Shown_walk shown_walk(const Snapshot<2>& snapshot, const Particle<2>& particle, const Point<2>& to) {
   Shown_walk walk;
   Walk_counts counts;
-  walk.result = cellwalk::walk(snapshot, particle, to, counts,
-                               {Walk_strategy::predictive_simplex, &walk.visited, &walk.crossed});
+  walk.result = cellwalk::walk(snapshot, particle, to, counts, Walk_strategy::predictive_simplex,
+                               {&walk.visited, &walk.crossed});
   return walk;
 }
 

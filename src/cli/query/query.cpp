@@ -41,7 +41,7 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
         throw Error(Error_code::usage,
                     fmt::format("{} needs {}; see cellwalk query --help", name, condition));
   };
-  const bool is_exact = options.move.kernel == Kernel_choice::exact;
+  const bool is_exact = options.method.kernel == Kernel_choice::exact;
   if (options.row.has_value() != (!options.record.empty() || !options.picture.empty()))
     throw Error(Error_code::usage,
                 "--row says what --record or --picture is of: give both; see cellwalk query --help");
@@ -59,11 +59,9 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
   }
   need({"--strategy", "--record"}, "--mode move");
   if (!is_exact) throw Error(Error_code::usage, "--mode sweep needs --kernel exact: sweeps are exact only");
-  if (options.sweep.search != Contact_search::dichotomic &&
-      options.sweep.search != Contact_search::dichotomic_segment)
-    need({"--tolerance"}, "--contact dichotomic");
-  if (options.sweep.search != Contact_search::exhaustive)
-    need({"--search-cells", "--search-limit"}, "--contact exhaustive");
+  const bool is_exhaustive = options.contact == Contact_search::exhaustive;
+  if (!options.contact || is_exhaustive) need({"--tolerance"}, "--contact dichotomic");
+  if (!is_exhaustive) need({"--search-cells", "--search-limit"}, "--contact exhaustive");
 }
 
 void query(Query_options& options, const CLI::App& command, Ranks& ranks) {
@@ -73,9 +71,12 @@ void query(Query_options& options, const CLI::App& command, Ranks& ranks) {
     return;
   }
   refuse_misfits(options, command);
-  options.move.strategy = options.strategy.value_or(
-      options.move.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
-  options.move.touch = options.sweep.touch;
+  options.method.strategy = options.strategy.value_or(
+      options.method.kernel == Kernel_choice::exact ? Walk_strategy::certified : Walk_strategy::exit_rule);
+  if (options.contact) {
+    options.search.method = *options.contact;
+    options.sweep.search = &options.search;
+  }
   std::optional<Query_files> files;
   if (ranks.is_first()) files.emplace(options);
   if (files && !ranks.is_alone()) files->all.inputs_are_shared();
@@ -91,7 +92,7 @@ void query(Query_options& options, const CLI::App& command, Ranks& ranks) {
 
 void add_move_options(CLI::App& command, Query_options& options) {
   constexpr const char* group = "With --mode move";
-  add_choice(command, "--kernel", options.move.kernel, kernel_names,
+  add_choice(command, "--kernel", options.method.kernel, kernel_names,
              "Number policy; those of double and float may miss walls and are for experiments. double_1e-9: "
              "determinants up to that count as 0")
       ->group(group);
@@ -108,18 +109,18 @@ void add_move_options(CLI::App& command, Query_options& options) {
       ->group(group);
 }
 
-void add_sweep_options(CLI::App& command, Sweep_options& options) {
+void add_sweep_options(CLI::App& command, Query_options& options) {
   constexpr const char* group = "With --mode sweep";
   add_choice(
-      command, "--sweep", options.sweep,
+      command, "--sweep", options.sweep.sweep,
       {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}},
       "What is checked. three_segments: the way of p, then the edge, as in the paper; misses what fits "
       "between. "
       "triangle: all that the edge sweeps. faces: the same here, since an edge has no face")
       ->group(group);
   add_choice(
-      command, "--contact", options.search,
-      {{"exact", Contact_search::exact},
+      command, "--contact", options.contact,
+      {{"exact", std::optional<Contact_search>()},
        {"dichotomic", Contact_search::dichotomic},
        {"dichotomic_segment", Contact_search::dichotomic_segment},
        {"exhaustive", Contact_search::exhaustive}},
@@ -130,7 +131,7 @@ void add_sweep_options(CLI::App& command, Sweep_options& options) {
       ->group(group);
   command
       .add_option(
-          "--tolerance", options.tolerance,
+          "--tolerance", options.search.tolerance,
           "With --contact dichotomic or dichotomic_segment: when the motion is halved no more; in (0,1]. "
           "The time of dichotomic is at most this much too early")
       ->check([](const std::string& text) {
@@ -142,13 +143,13 @@ void add_sweep_options(CLI::App& command, Sweep_options& options) {
       ->default_str("2^-20")
       ->group(group);
   add_choice(
-      command, "--search-cells", options.cells,
+      command, "--search-cells", options.search.cells,
       {{"flooded", Search_cells::flooded}, {"traversed", Search_cells::traversed}},
       "With --contact exhaustive: the obstacles of which cells are looked at. flooded: those that the swept "
       "triangle meets. traversed: those that the edge passes at its end, as in the paper")
       ->group(group);
   add_choice(
-      command, "--search-limit", options.below, {{"below", true}, {"none", false}},
+      command, "--search-limit", options.search.below, {{"below", true}, {"none", false}},
       "With --contact exhaustive: which of their obstacles are computed with. below: those that are not "
       "beyond the edge at its end. none: all, which finds the same and costs more")
       ->group(group);
@@ -191,7 +192,7 @@ void add_query(CLI::App& app, Action& chosen) {
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);
   add_move_options(*command, *options);
-  add_sweep_options(*command, options->sweep);
+  add_sweep_options(*command, *options);
   add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
                           "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv",
                           "cellwalk query rooms.ovm moves.csv -o answers.csv --picture first.png --row 0"});

@@ -148,7 +148,7 @@ void record_row(const Query_options& options, Query_files& files, const Environm
                 const std::array<Point<D>, 2>& points, const Answer<D>& answer) {
   if (files.record == nullptr) return;
   const char* status = motion_status_names[static_cast<std::size_t>(answer.status)];
-  write_repro_of(*files.record, environment, points[0], points[1], options.move,
+  write_repro_of(*files.record, environment, points[0], points[1], options.method,
                  fmt::format("row {} of a query: {}", *options.row, status));
 }
 
@@ -209,7 +209,8 @@ void answer_table(const Query_options& options, Query_files* files, Ranks& ranks
     answer_rows_of_rank(
         options, files, ranks, environment, moves, "walking",
         [&](const std::array<Point<D>, 2>& points, Edge_counts& local) {
-          return answer_move(snapshot, locator, points[0], points[1], options.move, local);
+          return answer_move(snapshot, locator, points[0], points[1], options.sweep.touch, options.method,
+                             local);
         },
         locator);
   } else {

@@ -3,9 +3,10 @@
 #ifndef CELLWALK_CLI_QUERY_TABLE_H
 #define CELLWALK_CLI_QUERY_TABLE_H
 
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/ranks/ranks.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/sweep.h>
 
 #include <cstddef>
@@ -24,8 +25,10 @@ struct Query_options {
   std::string picture;             // if set, the picture of the row
   std::optional<std::size_t> row;  // of the repro file or the picture
   Query_mode mode = Query_mode::move;
-  Move_options move;
+  Walk_method method;
   Sweep_options sweep;                    // its `touch` also applies to moves
+  std::optional<Contact_search> contact;  // default: exact
+  Search_options search;                  // its method is that of `contact`
   std::optional<Walk_strategy> strategy;  // default: certified, or exit_rule for kernels without certificates
   int threads = 0;
   Build_options build{.keep_map = false};

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_QUERY_WALK_LOG_H
 
 #include <cellwalk/internal/walk/signs.h>
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/strategy.h>
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ Logged_walk<D> logged_walk(const Snapshot<D>& snapshot, const Particle<D>& parti
                            Walk_strategy strategy) {
   Logged_walk<D> logged;
   Walk_counts counts;
-  logged.result = walk<Kernel>(snapshot, particle, to, counts, {strategy, &logged.visited, nullptr});
+  logged.result = walk<Kernel>(snapshot, particle, to, counts, strategy, {&logged.visited});
   return logged;
 }
 

@@ -87,22 +87,22 @@ void walk_repro(const std::string& path) {
 
 template <int D>
 void write_repro_of(io::Atomic_file& file, const Environment<D>& environment, const Point<D>& from,
-                    const Point<D>& to, const Move_options& options, const std::string& note) {
+                    const Point<D>& to, const Walk_method& method, const std::string& note) {
   Repro<D> record;
   record.soup = environment.soup();
   record.from = from;
   record.to = to;
   record.note = note;
   for (const auto& [name, value] : kernel_names)
-    if (value == options.kernel) record.kernel = name;
+    if (value == method.kernel) record.kernel = name;
   for (const auto& [name, value] : strategy_names)
-    if (value == options.strategy) record.strategy = name;
+    if (value == method.strategy) record.strategy = name;
   io::write_repro(file, record);
 }
 
 template void write_repro_of<2>(io::Atomic_file&, const Environment<2>&, const Point<2>&, const Point<2>&,
-                                const Move_options&, const std::string&);
+                                const Walk_method&, const std::string&);
 template void write_repro_of<3>(io::Atomic_file&, const Environment<3>&, const Point<3>&, const Point<3>&,
-                                const Move_options&, const std::string&);
+                                const Walk_method&, const std::string&);
 
 }  // namespace cellwalk::cli

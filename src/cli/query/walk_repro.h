@@ -21,7 +21,7 @@ void walk_repro(const std::string& path);
 /// Writes a repro file of a motion in an environment.
 template <int D>
 void write_repro_of(io::Atomic_file& file, const Environment<D>& environment, const Point<D>& from,
-                    const Point<D>& to, const Move_options& options, const std::string& note);
+                    const Point<D>& to, const Walk_method& method, const std::string& note);
 
 }  // namespace cellwalk::cli
 

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_EDGE_CHAIN_ROUNDED_ORIENTATION_H
 #define CELLWALK_EDGE_CHAIN_ROUNDED_ORIENTATION_H
 
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/kernel/policies.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <vector>

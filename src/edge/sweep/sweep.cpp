@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The choice of the sweep and the search, and the first of the contacts that they find.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/edge/furthest_move.h>
 #include <cellwalk/internal/edge/three_segments.h>
@@ -82,34 +83,34 @@ Sweep_result<D> detect(const Snapshot<D>& snapshot, const Vertex_path<D>& path, 
   return detail::follow_events(snapshot, path, q, before, counts.walk);
 }
 
+/// The contact that a search of the paper finds, if any.
+template <int D>
+std::optional<Contact<D>> search_contact(const Snapshot<D>& snapshot, const Vertex_path<D>& path,
+                                         const Particle<D>& q, const Chain& before,
+                                         const Search_options& search, Edge_counts& counts) {
+  const auto sweep_until = [&](std::optional<double> until) {
+    return detail::follow_events(snapshot, path, q, before, counts.walk, until);
+  };
+  switch (search.method) {
+    case Contact_search::dichotomic:
+      return detail::dichotomic_search<D>(snapshot, path, q, sweep_until, search.tolerance, counts);
+    case Contact_search::dichotomic_segment:
+      return detail::segment_search(snapshot, path, q, search.tolerance, counts);
+    case Contact_search::exhaustive:
+      break;
+  }
+  const detail::Flooded cells = search.cells == Search_cells::flooded
+                                    ? detail::flooded_cells(snapshot, path, q, counts)
+                                    : detail::traversed_cells(snapshot, path, q, counts);
+  return detail::exhaustive_search<D>(snapshot, path, q, {cells.data(), cells.size()}, search.below, counts);
+}
+
 template <int D>
 Contact<D> locate(const Snapshot<D>& snapshot, const Vertex_path<D>& path, const Particle<D>& q,
                   const Chain& before, const Contact<D>& first, const Sweep_options& options,
                   Edge_counts& counts) {
-  switch (options.search) {
-    case Contact_search::exact:
-      break;
-    case Contact_search::dichotomic:
-      return detail::dichotomic_search<D>(
-          snapshot, path, q,
-          [&](std::optional<double> until) {
-            return detail::follow_events(snapshot, path, q, before, counts.walk, until);
-          },
-          options.tolerance, counts);
-    case Contact_search::dichotomic_segment:
-      if (const auto contact = detail::segment_search(snapshot, path, q, options.tolerance, counts))
-        return *contact;
-      break;
-    case Contact_search::exhaustive: {
-      const detail::Flooded cells = options.cells == Search_cells::flooded
-                                        ? detail::flooded_cells(snapshot, path, q, counts)
-                                        : detail::traversed_cells(snapshot, path, q, counts);
-      if (const auto contact = detail::exhaustive_search<D>(snapshot, path, q, {cells.data(), cells.size()},
-                                                            options.below, counts))
-        return *contact;
-      break;
-    }
-  }
+  if (options.search)
+    if (const auto found = search_contact(snapshot, path, q, before, *options.search, counts)) return *found;
   Contact<D> contact = first;
   contact.normal = detail::edge_normal(snapshot, triangle_of(path, q), first, first.normal);
   return contact;
@@ -123,8 +124,7 @@ Sweep_result<D> sweep_on_sides(const Snapshot<D>& snapshot, const Particle<D>& p
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
   Particle<D> moved = p;
-  walked = detail::move_on_sides(snapshot, moved, target, counts.walk,
-                                 {Walk_strategy::certified, &visited, &crossed}, choices);
+  walked = detail::move_on_sides(snapshot, moved, target, counts.walk, {&visited, &crossed}, choices);
   moved.position = target;
   const Vertex_path<D> path{p, moved, visited, crossed, walked.contact.has_value()};
   Sweep_result<D> result = sweep_edge_along(snapshot, path, q, before, options, counts);
@@ -138,8 +138,8 @@ Sweep_result<D> sweep_on_sides(const Snapshot<D>& snapshot, const Particle<D>& p
 
 }  // namespace
 
-void detail::check_search(const Sweep_options& options) {
-  if (bisects(options.search) && !(options.tolerance > 0 && options.tolerance <= 1))
+void detail::check_search(const Search_options& search) {
+  if (search.method != Contact_search::exhaustive && !(search.tolerance > 0 && search.tolerance <= 1))
     throw Error(Error_code::usage, "the tolerance of a dichotomic search must lie in (0,1]");
 }
 
@@ -196,7 +196,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                            Edge_counts& counts) {
   if (!snapshot.is_cell(q.cell)) detail::refuse_removed_cell();  // the walk of p checks that of p
   detail::check_finite(q.position, "the end of an edge that stands still");
-  detail::check_search(options);
+  if (options.search) detail::check_search(*options.search);
   Walk_result<D> walked;
   const auto sweep = [&](const Sweep_options& chosen, detail::Sides_taken* choices) {
     return sweep_on_sides(snapshot, p, target, q, before, chosen, counts, choices, walked);
@@ -206,7 +206,7 @@ Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, co
                                                           *result.contact, options.touch, counts.walk))
     return result;
   Sweep_options exact = options;
-  exact.search = Contact_search::exact;
+  exact.search = nullptr;
   detail::Sides_taken choices;
   const auto contact = detail::furthest_move<D>(snapshot, p.position, target, choices, [&](auto& tried) {
     result = sweep(exact, &tried);

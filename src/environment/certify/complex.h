@@ -8,7 +8,7 @@
 
 #include <cellwalk/environment/certify.h>
 #include <cellwalk/internal/environment/cell_check.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

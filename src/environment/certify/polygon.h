@@ -7,7 +7,7 @@
 #define CELLWALK_ENVIRONMENT_CERTIFY_POLYGON_H
 
 #include <cellwalk/environment/certify.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <boost/container/small_vector.hpp>
 

@@ -3,8 +3,8 @@
 #ifndef CELLWALK_ENVIRONMENT_SPLIT_POLYGON_H
 #define CELLWALK_ENVIRONMENT_SPLIT_POLYGON_H
 
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/kernel/point.h>
-#include <cellwalk/kernel/policies.h>
 
 #include <array>
 #include <cstdint>

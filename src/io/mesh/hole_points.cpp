@@ -2,7 +2,7 @@
 // A visible corner found from a convex one, and exact tests of the point between them.
 #include "hole_points.h"
 
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <optional>

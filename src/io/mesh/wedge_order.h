@@ -3,7 +3,7 @@
 #ifndef CELLWALK_IO_MESH_WEDGE_ORDER_H
 #define CELLWALK_IO_MESH_WEDGE_ORDER_H
 
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <algorithm>

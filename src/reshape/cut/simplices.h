@@ -6,7 +6,7 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/star_index.h>
 #include <cellwalk/internal/kernel/predicates.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <algorithm>

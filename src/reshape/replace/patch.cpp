@@ -4,7 +4,7 @@
 
 #include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/internal/environment/facet_table.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <boost/container/small_vector.hpp>
 

@@ -83,8 +83,8 @@ class Restated_body {
     };
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
-    const auto walked = detail::move_on_sides(snapshot_, tried.to, target, counts_.walk,
-                                              {Walk_strategy::certified, &visited, &crossed}, choices);
+    const auto walked =
+        detail::move_on_sides(snapshot_, tried.to, target, counts_.walk, {&visited, &crossed}, choices);
     tried.had_choice = walked.had_choice;
     if (walked.contact) {
       keep(*walked.contact, Body_feature::vertex, vertex);

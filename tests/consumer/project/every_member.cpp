@@ -9,6 +9,7 @@
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/ovm.h>
 #include <cellwalk/loading/environment_file.h>
+#include <cellwalk/paper.h>
 #include <cellwalk/records/body_soup.h>
 
 #include <cstdio>
@@ -45,6 +46,9 @@ void keep_environments() {
   keep(
       +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
       &Locator<D>::particle_at, &Locator<D>::particles_at);
+  keep(+[](const Snapshot<D>& s, const Locator<D>& l, const Point<D>& x, Edge_counts& c) {
+    return answer_move(s, l, x, x, Touch::pass, Walk_method{}, c);
+  });
 
   keep(&Environment<D>::build, &moved<Environment<D>>,
        static_cast<const Snapshot<D>& (Environment<D>::*)() const&>(&Environment<D>::snapshot),

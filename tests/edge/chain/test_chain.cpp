@@ -97,8 +97,7 @@ TEST(Chain, IsReducedWhereTheEndWalksAlongIt) {
   ASSERT_EQ(chain.size(), 3u);
   const auto walk_to = [&](const Point<3>& target) {
     std::vector<Half_facet> crossed;
-    ASSERT_EQ(move(snapshot, p, target, counts, {Walk_strategy::certified, nullptr, &crossed}).status,
-              Walk_status::arrived);
+    ASSERT_EQ(move(snapshot, p, target, counts, {nullptr, &crossed}).status, Walk_status::arrived);
     prepend_crossed_facets(snapshot, chain, crossed);
     expect_leads(snapshot, chain, p.cell, q.cell);
     EXPECT_TRUE(passes(snapshot, chain, p.position, q.position, counts));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // One interface to sweeps, touches and searches: what each must be to the others.
+#include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/kernel/predicates.h>
@@ -48,8 +49,8 @@ void compare_bisected_segment(const Edge_world<D>& w, const Particle<D>& p, cons
                               const Particle<D>& q, const Chain& chain, const Sweep_result<D>& exact,
                               bool generic, Sweep_seen& seen) {
   const std::uint64_t misses = seen.counts.search_misses, walks = seen.counts.search_walks;
-  const Sweep_options options{.search = Contact_search::dichotomic_segment, .tolerance = tolerance};
-  const Sweep_result<D> found = sweep_edge(w.snapshot, p, target, q, chain, options, seen.counts);
+  const Search_options search{Contact_search::dichotomic_segment, tolerance};
+  const Sweep_result<D> found = sweep_edge(w.snapshot, p, target, q, chain, {.search = &search}, seen.counts);
   ASSERT_TRUE(found.contact);
   if (found.contact->body == Body_feature::edge) expect_against(w, p, target, *found.contact, seen);
   if (seen.counts.search_misses > misses) {
@@ -123,7 +124,8 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
     ++seen.segments_when_blocked;
   compare_bisected_segment(w, p, target, q, chain, exact, generic, seen);
 
-  const Sweep_result<D> bisected = answer({.search = Contact_search::dichotomic, .tolerance = tolerance});
+  const Search_options bisection{Contact_search::dichotomic, tolerance};
+  const Sweep_result<D> bisected = answer({.search = &bisection});
   ASSERT_TRUE(bisected.contact);
   if (bisected.contact->body == Body_feature::edge) {
     EXPECT_FALSE(exact.contact->exact_time() < bisected.contact->exact_time()) << w.world.name;
@@ -132,9 +134,9 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
     expect_against(w, p, target, *bisected.contact, seen);
   }
 
-  Sweep_options exhaustive{.search = Contact_search::exhaustive};
+  Search_options exhaustive{.method = Contact_search::exhaustive};
   const std::uint64_t misses = seen.counts.search_misses;
-  const Sweep_result<D> found = answer(exhaustive);
+  const Sweep_result<D> found = answer({.search = &exhaustive});
   const bool none = seen.counts.search_misses > misses;
   seen.exhaustive_none += none;
   ASSERT_TRUE(found.contact);
@@ -153,17 +155,17 @@ void compare(const Edge_world<D>& w, const Particle<D>& p, const Point<D>& targe
   }
   if (found.contact->body == Body_feature::edge) expect_against(w, p, target, *found.contact, seen);
   const std::uint64_t walls = seen.counts.search_walls;
-  answer(exhaustive);
+  answer({.search = &exhaustive});
   const std::uint64_t walls_below = seen.counts.search_walls - walls;
   exhaustive.below = false;
-  const Sweep_result<D> of_all = answer(exhaustive);
+  const Sweep_result<D> of_all = answer({.search = &exhaustive});
   EXPECT_EQ(of_all.contact->exact_time(), found.contact->exact_time());
   EXPECT_EQ(of_all.contact->facet, found.contact->facet);
   EXPECT_GE(seen.counts.search_walls - walls, 2 * walls_below);
   exhaustive.below = true;
   exhaustive.cells = Search_cells::traversed;
   const std::uint64_t before = seen.counts.search_misses;
-  const Sweep_result<D> paper = answer(exhaustive);
+  const Sweep_result<D> paper = answer({.search = &exhaustive});
   const bool is_equal =
       seen.counts.search_misses == before && paper.contact->exact_time() == found.contact->exact_time();
   (is_equal ? seen.traversed_equal : seen.traversed_other) += 1;
@@ -279,18 +281,19 @@ TEST(Sweep, BisectionOfTheSegmentMissesWhatTheEdgeLeavesBehind) {
   const double first = (31.0 / 30 - 0.25) / 6.5, second = (0.5 + 5.5 * 16 / 15 - 0.25) / 6.5;
   for (const Sweep sweep : {Sweep::triangle, Sweep::three_segments}) {
     EXPECT_NEAR(time({.sweep = sweep}), first, 1e-15);
-    Sweep_options options{.sweep = sweep, .search = Contact_search::dichotomic, .tolerance = 0x1p-10};
+    Search_options search{Contact_search::dichotomic, 0x1p-10};
+    const Sweep_options options{.sweep = sweep, .search = &search};
     EXPECT_NEAR(time(options), first, 0x1p-10);
     EXPECT_EQ(counts.search_walks, 0u);
-    options.search = Contact_search::dichotomic_segment;
+    search.method = Contact_search::dichotomic_segment;
     EXPECT_NEAR(time(options), second, 0x1p-10);
     EXPECT_EQ(counts.search_walks, 11u) << "the end, and ten halves";
     counts = {};
   }
   // Where the edge is free at its end there is nothing to bisect: the exact contact is reported.
-  EXPECT_NEAR(
-      room.sweep(from, {4, 0.75}, q, {.search = Contact_search::dichotomic_segment}, counts).contact->time,
-      (31.0 / 30 - 0.25) / 3.75, 1e-15);
+  const Search_options search{Contact_search::dichotomic_segment};
+  EXPECT_NEAR(room.sweep(from, {4, 0.75}, q, {.search = &search}, counts).contact->time,
+              (31.0 / 30 - 0.25) / 3.75, 1e-15);
   EXPECT_EQ(counts.search_misses, 1u);
 }
 

@@ -2,7 +2,7 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/generators/lattice_world.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_KERNEL_EXACT_VALUE_H
 #define CELLWALK_INTERNAL_KERNEL_EXACT_VALUE_H
 
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Mpzf.h>

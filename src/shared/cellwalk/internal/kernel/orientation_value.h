@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_KERNEL_ORIENTATION_VALUE_H
 #define CELLWALK_INTERNAL_KERNEL_ORIENTATION_VALUE_H
 
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
 #include <cmath>

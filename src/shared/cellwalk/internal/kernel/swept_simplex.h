@@ -6,7 +6,7 @@
 
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/kernel/fraction.h>
-#include <cellwalk/kernel/policies.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <array>
 #include <cstddef>

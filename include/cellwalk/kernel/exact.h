@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The number policy of the library. Every predicate is the sign of an orientation of input points, computed
+// by a policy: Exact, one of <cellwalk/kernel/policies.h>, or your own (<cellwalk/walk/walk_impl.h>).
+//
+// Paper: section II (orientation tests of the particle walk). Sign convention is CGAL's:
+//   orientation(p,q,r)   > 0  r lies to the left of the line pq (2D)
+//   orientation(p,q,r,s) > 0  s lies on the side of plane pqr to which (q-p) x (r-p) points (3D)
+#ifndef CELLWALK_KERNEL_EXACT_H
+#define CELLWALK_KERNEL_EXACT_H
+
+#include <cellwalk/internal/kernel/counts.h>
+#include <cellwalk/kernel/point.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+namespace cellwalk {
+
+namespace detail {
+
+/// Exact sign by CGAL's filtered kernel; the slow path of Exact.
+int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
+
+/// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075,
+/// which 16u times this allowance covers whatever the outer factor is.
+inline constexpr double underflow_allowance = 1e-290;
+
+/// The rounded determinant of a 2D orientation, and the sum of the magnitudes of its terms.
+template <class T>
+struct Determinant {
+  T value;
+  T magnitude;
+};
+
+template <class T>
+inline Determinant<T> determinant(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]);
+  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]);
+  const T left = ax * by, right = ay * bx;
+  return {left - right, std::abs(left) + std::abs(right)};
+}
+
+template <class T>
+inline Determinant<T> determinant(const Point<3>& p, const Point<3>& q, const Point<3>& r,
+                                  const Point<3>& s) {
+  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]), az = T(q[2]) - T(p[2]);
+  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]), bz = T(r[2]) - T(p[2]);
+  const T cx = T(s[0]) - T(p[0]), cy = T(s[1]) - T(p[1]), cz = T(s[2]) - T(p[2]);
+  const T ab = ax * by, ba = ay * bx, bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax;
+  const T value = (ab - ba) * cz + (bc - cb) * az + (ca - ac) * bz;
+  const T tiny = T(underflow_allowance);
+  const T magnitude = (std::abs(ab) + std::abs(ba) + tiny) * std::abs(cz) +
+                      (std::abs(bc) + std::abs(cb) + tiny) * std::abs(az) +
+                      (std::abs(ca) + std::abs(ac) + tiny) * std::abs(bz);
+  return {value, magnitude};
+}
+
+template <class T>
+inline int sign_of(T x) {
+  return (x > T(0)) - (x < T(0));
+}
+
+/// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each
+/// coordinate difference has a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in
+/// 2D. The magnitude, with which the error is compared, is rounded down by as many. 16u covers both with a
+/// margin.
+inline constexpr double orientation_error = 16 * 0x1p-53;
+/// Magnitudes outside this range are decided exactly. Below it an outer product may have underflowed (by
+/// 2^-1075, far less than 16u times 1e-250); above it a term may have overflowed.
+inline constexpr double smallest_magnitude = 1e-250;
+inline constexpr double largest_magnitude = 1e+300;
+
+}  // namespace detail
+
+/// Counts of the signs that a policy computed, and of those that needed more than double arithmetic.
+struct Predicate_counts {
+  std::uint64_t orientations = 0;  ///< signs of orientations computed
+  std::uint64_t fallbacks = 0;     ///< signs that the filter left undecided
+
+  static constexpr std::array<std::string_view, 2> names{"orientations", "exact_fallbacks"};
+};
+static_assert(names_all_before<Predicate_counts>(sizeof(Predicate_counts)));
+
+/// Exact signs at the cost of double arithmetic in nearly all cases. The default.
+/// Cost: about 5 ns if the filter decides; 0.1 us where points lie some ulp off a plane; to 10 us where
+/// they lie in one that is not parallel to an axis, and no two of them coincide.
+struct Exact {
+  static constexpr bool is_exact = true;
+  static constexpr bool uses_certificates = true;
+  static constexpr const char* name = "exact";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    const auto d = detail::determinant<double>(points...);
+    const double bound = detail::orientation_error * d.magnitude;
+    // A NaN fails both comparisons and is decided below.
+    if (d.magnitude > detail::smallest_magnitude && d.magnitude < detail::largest_magnitude) {
+      if (d.value > bound) return 1;
+      if (d.value < -bound) return -1;
+    }
+    ++counts.fallbacks;
+    return detail::orientation_cgal(points...);
+  }
+};
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_KERNEL_EXACT_H
