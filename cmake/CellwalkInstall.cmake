@@ -48,6 +48,7 @@ set(installed_internals
   kernel/box.h
   kernel/check_finite.h
   kernel/counts.h
+  kernel/determinant.h
   kernel/predicates.h
   kernel/uncertified.h
   walk/certified_exit.h

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "sweeps.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/three_segments.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/io/csv.h>

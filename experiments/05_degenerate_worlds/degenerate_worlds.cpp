@@ -4,6 +4,7 @@
 //
 //   degenerate_worlds -o DIR [--motions N] [--seed S] [--threads N] [--commit NAME]
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/io/json_file.h>
 

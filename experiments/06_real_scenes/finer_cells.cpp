@@ -4,7 +4,7 @@
 //
 //   finer_cells SCENES.json NAME N OUT.ovm    the cells of a scene in a list
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/kernel/random.h>
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 #include <cstddef>
 #include <vector>

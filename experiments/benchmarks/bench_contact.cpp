@@ -7,6 +7,7 @@
 // Run natively: under valgrind rounding has no direction, and CGAL's intervals take other paths.
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/walk/locate.h>

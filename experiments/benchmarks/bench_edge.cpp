@@ -10,6 +10,7 @@
 // times are of sweep_face alone, of moves that are free.
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/three_segments.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/environment/gluing.h>

@@ -3,9 +3,10 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/kernel/fraction.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <fmt/format.h>

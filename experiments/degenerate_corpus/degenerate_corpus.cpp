@@ -4,7 +4,7 @@
 //   degenerate_corpus --out DIR
 //   degenerate_corpus --in DIR --answers FILE.csv [--touch pass|stop]
 #include <cellwalk/internal/io/atomic_file.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edge_judge.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/environment/gluing.h>
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "touch.h"
 
+#include <cellwalk/internal/edge/sweep_along.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>

@@ -3,6 +3,8 @@
 #ifndef CELLWALK_EXPERIMENTS_DEGENERATE_CORPUS_TOUCH_H
 #define CELLWALK_EXPERIMENTS_DEGENERATE_CORPUS_TOUCH_H
 
+#include <cellwalk/internal/edge/sweep_along.h>
+
 #include <optional>
 #include <span>
 

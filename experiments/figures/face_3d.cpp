@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The paper's figure 6: a spike comes through a face, and none of the edges meets it.
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/json_file.h>

@@ -2,6 +2,7 @@
 #include "numbers.h"
 
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/kernel/error.h>
 

@@ -4,6 +4,7 @@
 #define CELLWALK_EXPERIMENTS_FIGURES_NUMBERS_H
 
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 #include <nlohmann/json.hpp>

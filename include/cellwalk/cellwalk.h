@@ -20,9 +20,7 @@
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/loading/import.h>
-#include <cellwalk/query/edge_cells.h>
-#include <cellwalk/query/move.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>

@@ -6,7 +6,7 @@
 #include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/internal/loading/report.h>
 #include <cellwalk/query/kernel_choice.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_PYTHON_LISTED_H
 #define CELLWALK_PYTHON_LISTED_H
 
-#include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/move.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/query/answer.h>
+#include <cellwalk/query/query.h>
 
 #include <pybind11/stl.h>
 

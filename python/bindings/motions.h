@@ -4,7 +4,7 @@
 #define CELLWALK_PYTHON_MOTIONS_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/query/answer.h>
+#include <cellwalk/query/query.h>
 
 #include <array>
 #include <cstddef>

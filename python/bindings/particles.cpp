@@ -3,6 +3,7 @@
 #include "particles.h"
 
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/walk/walk.h>
 
 #include <optional>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_PYTHON_PARTICLES_H
 #define CELLWALK_PYTHON_PARTICLES_H
 
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // edit_script ENV OUT.ovm < SCRIPT: makes edits among bodies and particles in C++, and prints the same of
 // each as test_edits_script.py does in Python.
 #include <cellwalk/body/body.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/reshape/reshaping.h>

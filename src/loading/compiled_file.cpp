@@ -4,7 +4,7 @@
 
 #include <cellwalk/internal/io/ovm_writer.h>
 #include <cellwalk/internal/loading/environment_writer.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/loading/environment_file.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #define CELLWALK_MESHING_SIZES_H
 
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_MESHING_SURFACE_MESH_H
 #define CELLWALK_MESHING_SURFACE_MESH_H
 
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/records/surface_soup.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_MESHING_SURFACE_TOPOLOGY_H
 #define CELLWALK_MESHING_SURFACE_TOPOLOGY_H
 
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/records/surface_soup.h>
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Random edges in free space, and the cells through which they pass.
 #include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/query/edge_cells.h>
+#include <cellwalk/query/query.h>
 #include <cellwalk/walk/walk.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The walks from all sides of the start, of which the one that gets furthest is the answer.
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/query/kernel_choice.h>
 

@@ -3,7 +3,7 @@
 #include <cellwalk/edge/contact_search.h>
 #include <cellwalk/internal/edge/all_chains.h>
 #include <cellwalk/internal/kernel/check_finite.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 
 #include <list>
 #include <vector>

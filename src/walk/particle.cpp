@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The test whether a point lies in a closed cell.
 #include <cellwalk/kernel/exact.h>
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 namespace cellwalk {
 

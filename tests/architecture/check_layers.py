@@ -20,11 +20,11 @@ HERE = Path(__file__).resolve().parents[2]
 INSTALL = Path("cmake/CellwalkInstall.cmake")
 
 # Headers whose floor neither a source of that name nor their own name tells.
-HEADER_FLOORS = {"edge/swept_triangle.h": "exact", "environment/cell_shape.h": "snapshot", "environment/planes.h": "snapshot",
-                 "environment/flat_array.h": "snapshot", "environment/facet_table.h": "soup",
+HEADER_FLOORS = {"edge/swept_triangle.h": "exact", "edge/sweep_along.h": "sweep", "environment/planes.h": "snapshot",
+                 "environment/flat_array.h": "snapshot", "environment/facet_table.h": "soup", "reshape/move.h": "residents",
                  "environment/build_map.h": "map", "environment/cell_check.h": "certify",
                  "meshing/mesher_limits.h": "child",
-                 "io/ovm.h": "mesh", "io/build_features.h": "mesh", "io/parse_surface.h": "mesh", "io/planar_file.h": "mesh"}
+                 "io/build_features.h": "mesh", "io/parse_surface.h": "mesh", "io/planar_file.h": "mesh"}
 
 # Public headers that include CGAL, which costs whoever includes them seconds. docs/embedding.md names them.
 CGAL_HEADERS = {Path("include/cellwalk/environment/map.h")}

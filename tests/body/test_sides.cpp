@@ -4,6 +4,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/internal/walk/sides_taken.h>

@@ -4,7 +4,7 @@
 #define CELLWALK_TESTS_EDGE_EDGE_WORLDS_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 

@@ -5,6 +5,7 @@
 #define CELLWALK_TESTS_EDGE_FACE_BODY_H
 
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_EDGE_FACET_SHAPE_H
 #define CELLWALK_TESTS_EDGE_FACET_SHAPE_H
 
-#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 
 #include <cstddef>
 #include <cstdint>

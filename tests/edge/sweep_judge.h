@@ -3,6 +3,7 @@
 #ifndef CELLWALK_TESTS_EDGE_SWEEP_JUDGE_H
 #define CELLWALK_TESTS_EDGE_SWEEP_JUDGE_H
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 // Touch::stop reports what is met off the start of a motion, labels also what is met at the start. No query
 // tells them apart: none starts on its obstacle, which is asserted.
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The oracle of chains, and with it the complete sweep, where the answer is known by heart; and sweeps broken
 // on purpose.
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/walk/locate.h>
 

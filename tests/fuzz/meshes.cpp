@@ -3,8 +3,7 @@
 // it.
 #include <cellwalk/internal/io/parse_surface.h>
 #include <cellwalk/internal/io/planar_file.h>
-#include <cellwalk/io/ovm.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <algorithm>
 #include <variant>

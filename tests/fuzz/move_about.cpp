@@ -2,6 +2,7 @@
 #include "fuzz/move_about.h"
 
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/strategy.h>
 

@@ -6,7 +6,7 @@
 
 #include <cellwalk/edge/contact_search.h>
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 #include <cstddef>
 

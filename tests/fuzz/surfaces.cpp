@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Surfaces from bytes, up to where a mesher would get them: checked, and their narrowest place found.
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 
 #include <cmath>
 #include <cstdint>

@@ -2,9 +2,8 @@
 #include "fuzz/use_opened.h"
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/query/edge_cells.h>
 #include <cellwalk/query/kernel_choice.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 #include <cellwalk/reshape/reshaping.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The narrowest place against all pairs, with exact distances.
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/squared_distance_3.h>

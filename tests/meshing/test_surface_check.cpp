@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // their area.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/query/edge_cells.h>
+#include <cellwalk/query/query.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Questions about points and edges in no cell: two squares of the plane with a membrane between them.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/query/kernel_choice.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,7 @@
 // sides of their ends, of walls in the line of the edge, and of walls on the way.
 #include <cellwalk/edge/contact_search.h>
 #include <cellwalk/internal/environment/gluing.h>
-#include <cellwalk/query/move.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 
 #include <gtest/gtest.h>
 

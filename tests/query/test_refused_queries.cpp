@@ -5,10 +5,10 @@
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/query/edge_cells.h>
 #include <cellwalk/query/kernel_choice.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 
 #include <gtest/gtest.h>
 

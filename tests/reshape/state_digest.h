@@ -5,7 +5,7 @@
 
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/body/body_access.h>
-#include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/move.h>
 
 #include <string>
 

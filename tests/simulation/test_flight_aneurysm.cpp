@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies thrown around in a real vessel.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Particles in a real vessel: none ever leaves it, and every verdict is the oracle's.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/kernel/random.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/walk/locate.h>
 

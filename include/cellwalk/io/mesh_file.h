@@ -53,6 +53,41 @@ Mesh_file read_mesh(const std::filesystem::path& name, std::string bytes);
 /// One line with all formats that this build reads.
 std::string supported_formats();
 
+/// Reads a surface. The polygons are unchanged; meshing checks whether they are closed, oriented and
+/// manifold. The format is determined by the extension, which may be followed by `.gz`. STL corners of equal
+/// coordinates become one point.
+/// \throw Error(input) naming file and line (binary files: the problem); also if the file is not a surface
+Surface_soup read_surface(const std::filesystem::path& path, Read_report* report = nullptr);
+
+/// Reads OpenVolumeMesh ASCII (.ovm), the native format of environments: polyhedral cells, with walls and
+/// solid cells. Coordinates are exact; the order of points, cells and facets is that of the file.
+///
+/// 3D: the property `FProp bool "impassable"` marks walls, `CProp bool "solid"` solid cells. 2D: a file
+/// without polyhedra whose z are all zero. Faces are the cells, edges their facets: `EProp bool
+/// "impassable"`, `FProp bool "solid"`. The mesh property `MProp int "dimension"` gives the dimension
+/// explicitly. Boolean properties `group NAME` of facets and of cells are groups of that name.
+/// \throw Error(input) with file and line: not OVM ASCII, cut short, an index out of range, halfedges that
+///        form no loop; a group without a name, or of anything else than facets and cells
+/// Cost: about 2 s for a million tetrahedra.
+Mesh_file read_ovm(const std::filesystem::path& path);
+
+/// Reads from text in memory.
+/// \param name stands for the file in errors
+Mesh_file parse_ovm(const std::string& name, std::string_view text);
+
+/// Writes a soup so that reading it gives the same points bit for bit, the same cells in the same order with
+/// the same facets in the same order, walls and solid cells included. The second side of a facet may start
+/// its loop elsewhere. The file appears complete or not at all.
+/// \param groups are read again with both sides of each facet
+/// \throw Error(input) if a loop has a vertex out of range, if a group has a facet or cell out of range or a
+///        name that is empty or has a quote or a control character; Error(other) if the file cannot be
+///        written
+template <int D>
+void write_ovm(const std::filesystem::path& path, const Cell_soup<D>& soup, const Soup_groups& groups = {});
+
+extern template void write_ovm<2>(const std::filesystem::path&, const Cell_soup<2>&, const Soup_groups&);
+extern template void write_ovm<3>(const std::filesystem::path&, const Cell_soup<3>&, const Soup_groups&);
+
 }  // namespace cellwalk::io
 
 #endif  // CELLWALK_IO_MESH_FILE_H

@@ -9,10 +9,10 @@
 #define CELLWALK_KERNEL_EXACT_H
 
 #include <cellwalk/internal/kernel/counts.h>
+#include <cellwalk/internal/kernel/determinant.h>
 #include <cellwalk/kernel/point.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -23,45 +23,6 @@ namespace detail {
 /// Exact sign by CGAL's filtered kernel; the slow path of Exact.
 int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r);
 int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s);
-
-/// Added to each inner product sum of a 3D magnitude: a product that underflows is wrong by at most 2^-1075,
-/// which 16u times this allowance covers whatever the outer factor is.
-inline constexpr double underflow_allowance = 1e-290;
-
-/// The rounded determinant of a 2D orientation, and the sum of the magnitudes of its terms.
-template <class T>
-struct Determinant {
-  T value;
-  T magnitude;
-};
-
-template <class T>
-inline Determinant<T> determinant(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
-  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]);
-  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]);
-  const T left = ax * by, right = ay * bx;
-  return {left - right, std::abs(left) + std::abs(right)};
-}
-
-template <class T>
-inline Determinant<T> determinant(const Point<3>& p, const Point<3>& q, const Point<3>& r,
-                                  const Point<3>& s) {
-  const T ax = T(q[0]) - T(p[0]), ay = T(q[1]) - T(p[1]), az = T(q[2]) - T(p[2]);
-  const T bx = T(r[0]) - T(p[0]), by = T(r[1]) - T(p[1]), bz = T(r[2]) - T(p[2]);
-  const T cx = T(s[0]) - T(p[0]), cy = T(s[1]) - T(p[1]), cz = T(s[2]) - T(p[2]);
-  const T ab = ax * by, ba = ay * bx, bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax;
-  const T value = (ab - ba) * cz + (bc - cb) * az + (ca - ac) * bz;
-  const T tiny = T(underflow_allowance);
-  const T magnitude = (std::abs(ab) + std::abs(ba) + tiny) * std::abs(cz) +
-                      (std::abs(bc) + std::abs(cb) + tiny) * std::abs(az) +
-                      (std::abs(ca) + std::abs(ac) + tiny) * std::abs(bz);
-  return {value, magnitude};
-}
-
-template <class T>
-inline int sign_of(T x) {
-  return (x > T(0)) - (x < T(0));
-}
 
 /// Relative error of a rounded difference of products in terms of its magnitude. With u = 2^-53 each
 /// coordinate difference has a factor (1+u), each product and sum another: at most 7 factors in 3D and 4 in

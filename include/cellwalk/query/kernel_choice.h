@@ -4,7 +4,7 @@
 #define CELLWALK_QUERY_KERNEL_CHOICE_H
 
 #include <cellwalk/kernel/policies.h>
-#include <cellwalk/query/move.h>
+#include <cellwalk/query/query.h>
 #include <cellwalk/walk/strategy.h>
 
 namespace cellwalk {

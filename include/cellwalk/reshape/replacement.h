@@ -5,7 +5,7 @@
 #define CELLWALK_RESHAPE_REPLACEMENT_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/move.h>
 
 #include <array>
 #include <cstddef>

@@ -8,7 +8,6 @@
 #include <cellwalk/reshape/cut.h>
 #include <cellwalk/reshape/move.h>
 #include <cellwalk/reshape/replacement.h>
-#include <cellwalk/reshape/residents.h>
 
 #include <cstdint>
 #include <memory>

@@ -6,7 +6,7 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/exact.h>
 #include <cellwalk/walk/contact.h>
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 #include <boost/container/small_vector.hpp>
 

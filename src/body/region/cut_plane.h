@@ -4,7 +4,7 @@
 #ifndef CELLWALK_BODY_REGION_CUT_PLANE_H
 #define CELLWALK_BODY_REGION_CUT_PLANE_H
 
-#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "body_faces.h"
 
 #include <cellwalk/internal/edge/flat_faces.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/edge/wedge.h>
 #include <cellwalk/internal/kernel/predicates.h>

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_BODY_SHAPE_BODY_FACES_H
 #define CELLWALK_BODY_SHAPE_BODY_FACES_H
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/kernel/error.h>
 
 #include <cstdint>

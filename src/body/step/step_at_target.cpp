@@ -3,6 +3,7 @@
 #include "step_at_target.h"
 
 #include <cellwalk/internal/edge/furthest_move.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 
 #include <bit>
 #include <utility>

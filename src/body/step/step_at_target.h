@@ -4,6 +4,7 @@
 #ifndef CELLWALK_BODY_STEP_STEP_AT_TARGET_H
 #define CELLWALK_BODY_STEP_STEP_AT_TARGET_H
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 // Slides and bounces of a particle, each from a position that a walk has reached.
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/internal/body/stop_candidates.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 
 #include <algorithm>
 #include <span>

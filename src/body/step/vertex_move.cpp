@@ -4,6 +4,7 @@
 
 #include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/furthest_move.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 
 #include <utility>
 

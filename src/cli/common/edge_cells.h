@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_COMMON_EDGE_CELLS_H
 
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/query/edge_cells.h>
+#include <cellwalk/query/query.h>
 
 #include <nlohmann/json_fwd.hpp>
 

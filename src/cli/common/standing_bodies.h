@@ -5,7 +5,7 @@
 
 #include <cellwalk/body/body.h>
 #include <cellwalk/internal/io/atomic_file.h>
-#include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/move.h>
 
 #include <nlohmann/json_fwd.hpp>
 

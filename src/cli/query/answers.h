@@ -6,7 +6,7 @@
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/io/csv.h>
 #include <cellwalk/internal/records/queries.h>
-#include <cellwalk/query/answer.h>
+#include <cellwalk/query/query.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>

@@ -4,7 +4,7 @@
 #define CELLWALK_CLI_QUERY_PICTURE_H
 
 #include <cellwalk/internal/io/atomic_file.h>
-#include <cellwalk/query/answer.h>
+#include <cellwalk/query/query.h>
 #include <cellwalk/walk/locate.h>
 
 #include <array>

@@ -7,7 +7,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/query/kernel_choice.h>
-#include <cellwalk/query/sweep.h>
+#include <cellwalk/query/query.h>
 
 #include <cstddef>
 #include <optional>

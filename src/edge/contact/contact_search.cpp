@@ -2,6 +2,7 @@
 // The bisection of the motion, and the segment-wise and exhaustive searches.
 #include "contact_search.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/star.h>

@@ -4,8 +4,8 @@
 #define CELLWALK_EDGE_CONTACT_CONTACT_SEARCH_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 #include <functional>

@@ -3,6 +3,7 @@
 #include "edge_contact.h"
 
 #include <cellwalk/internal/edge/edge_contact.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/star.h>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H
 #define CELLWALK_EDGE_CONTACT_EDGE_CONTACT_H
 
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 #include "edge/chain/ridge.h"

@@ -2,6 +2,7 @@
 // Features clipped in the triangle by their half-spaces, and the normals of their meetings.
 #include "swept_meeting.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/walk/star.h>
 

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EDGE_CONTACT_SWEPT_MEETING_H
 #define CELLWALK_EDGE_CONTACT_SWEPT_MEETING_H
 
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 #include <optional>

@@ -3,6 +3,7 @@
 #include "touch.h"
 
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <limits>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_EXACT_HALF_SPACE_H
 #define CELLWALK_EDGE_EXACT_HALF_SPACE_H
 
-#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/kernel/fraction.h>
 
 #include <boost/container/small_vector.hpp>

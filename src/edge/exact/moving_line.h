@@ -4,7 +4,7 @@
 #ifndef CELLWALK_EDGE_EXACT_MOVING_LINE_H
 #define CELLWALK_EDGE_EXACT_MOVING_LINE_H
 
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H
 #define CELLWALK_EDGE_EXACT_RATIONAL_SEGMENT_H
 
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <cstddef>

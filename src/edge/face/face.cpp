@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The choice of the sweep, by volume or in the plane, and the first touch of all walls near.
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Sides handed on among the faces and edges in one plane until they agree, or a wall parts them.
 #include <cellwalk/internal/edge/flat_faces.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 // The cyclic order of half-planes around the way, and the wedges that edges, faces and cells occupy.
 #include "ridge_wedges.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
+
 #include <algorithm>
 #include <utility>
 

@@ -5,6 +5,7 @@
 #define CELLWALK_EDGE_FACE_RIDGE_WEDGES_H
 
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/fraction.h>
 
 #include <optional>

@@ -2,6 +2,7 @@
 // Separating planes first, then facets clipped in volume coordinates, for the first touch.
 #include "swept_tetrahedron.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <algorithm>

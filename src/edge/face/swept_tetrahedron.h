@@ -5,6 +5,7 @@
 #define CELLWALK_EDGE_FACE_SWEPT_TETRAHEDRON_H
 
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 #include <array>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The first point of a swept triangle that a wall in its plane covers, and the contact there.
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/wedge.h>
 #include <cellwalk/internal/kernel/predicates.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The exact tests that separate a facet from the triangle: boxes, planes, and lines of the sides.
 #include <cellwalk/internal/edge/may_intersect.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <boost/container/small_vector.hpp>

@@ -2,6 +2,8 @@
 // The chain extended by the path of p where the edge gets longer, and the pieces compared otherwise.
 #include "collinear_sweep.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
+
 #include <algorithm>
 
 #include "edge/chain/equal_chains.h"

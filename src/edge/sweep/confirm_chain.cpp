@@ -2,6 +2,7 @@
 // The signs of the old chain at the new position, and the walls that may leave a choice of sides.
 #include "confirm_chain.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #define CELLWALK_EDGE_SWEEP_CONFIRM_CHAIN_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 namespace cellwalk::detail {
 

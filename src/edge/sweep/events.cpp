@@ -2,6 +2,7 @@
 // The next event of the chain, the chain or contact after it, and the search over sides.
 #include "events.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/kernel/error.h>

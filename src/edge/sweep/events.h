@@ -4,7 +4,7 @@
 #define CELLWALK_EDGE_SWEEP_EVENTS_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 #include <optional>

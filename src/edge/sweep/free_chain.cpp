@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The chain of an edge after a free move, by the cheapest test that proves it.
 #include <cellwalk/edge/sweep.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 
 #include "confirm_chain.h"
 #include "events.h"

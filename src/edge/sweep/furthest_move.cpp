@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The test whether other sides of walls might lead a vertex further than its contact.
 #include <cellwalk/internal/edge/furthest_move.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 
 namespace cellwalk {
 

@@ -2,6 +2,8 @@
 // The corners of the facets of a chain, read from the snapshot for the relinking.
 #include "round_ridges.h"
 
+#include <cellwalk/internal/edge/swept_triangle.h>
+
 #include <vector>
 
 namespace cellwalk::detail {

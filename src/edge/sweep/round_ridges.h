@@ -3,8 +3,8 @@
 #ifndef CELLWALK_EDGE_SWEEP_ROUND_RIDGES_H
 #define CELLWALK_EDGE_SWEEP_ROUND_RIDGES_H
 
-#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 namespace cellwalk::detail {
 

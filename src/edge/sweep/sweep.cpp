@@ -3,6 +3,7 @@
 #include <cellwalk/edge/contact_search.h>
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/internal/edge/furthest_move.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/edge/three_segments.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/kernel/check_finite.h>

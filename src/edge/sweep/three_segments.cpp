@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The third segment, from the end of p to q, as a chain with or without a contact.
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/three_segments.h>
 
 #include "confirm_chain.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The tests in their order of cost: the old chain, then ridges, then all events.
 #include <cellwalk/internal/edge/edge_contact.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 
 #include <utility>

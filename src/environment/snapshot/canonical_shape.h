@@ -4,7 +4,7 @@
 #ifndef CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H
 #define CELLWALK_ENVIRONMENT_SNAPSHOT_CANONICAL_SHAPE_H
 
-#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 #include <cellwalk/records/cell_soup.h>
 
 #include <cstdint>

@@ -4,8 +4,6 @@
 #include <cellwalk/internal/io/parse_surface.h>
 #include <cellwalk/internal/io/planar_file.h>
 #include <cellwalk/io/mesh_file.h>
-#include <cellwalk/io/ovm.h>
-#include <cellwalk/io/surface_file.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The reader of .ovm: edges, faces and polyhedra in text, with properties for walls and groups.
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>

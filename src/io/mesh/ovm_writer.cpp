@@ -2,7 +2,7 @@
 // The writer of .ovm: numbers of edges and faces, and properties of walls, solid cells and groups.
 #include <cellwalk/internal/io/atomic_file.h>
 #include <cellwalk/internal/io/ovm_writer.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>

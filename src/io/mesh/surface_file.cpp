@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The parser of each surface format, chosen by the extension.
 #include <cellwalk/internal/io/parse_surface.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include "io/files/text.h"
 #include "surface_parsers.h"

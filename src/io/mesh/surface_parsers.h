@@ -4,7 +4,7 @@
 #define CELLWALK_IO_MESH_SURFACE_PARSERS_H
 
 #include <cellwalk/internal/io/parse_surface.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <fmt/format.h>
 

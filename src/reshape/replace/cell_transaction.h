@@ -6,7 +6,6 @@
 
 #include <cellwalk/internal/environment/cell_patcher.h>
 #include <cellwalk/reshape/move.h>
-#include <cellwalk/reshape/residents.h>
 
 #include <functional>
 #include <optional>

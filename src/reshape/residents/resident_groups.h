@@ -5,7 +5,7 @@
 
 #include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/kernel/box.h>
-#include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/move.h>
 
 #include <array>
 #include <compare>

@@ -5,7 +5,7 @@
 #define CELLWALK_RESHAPE_TOGGLE_TOGGLE_H
 
 #include <cellwalk/internal/environment/wall_editor.h>
-#include <cellwalk/reshape/residents.h>
+#include <cellwalk/reshape/move.h>
 
 #include <span>
 #include <utility>

@@ -3,7 +3,7 @@
 #include "random_start.h"
 
 #include <cellwalk/internal/kernel/box.h>
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 #include <algorithm>
 

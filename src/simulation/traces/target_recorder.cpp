@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/simulation/target_recorder.h>
 #include <cellwalk/kernel/error.h>
 

@@ -2,10 +2,11 @@
 // The rule of traces where touching is free, stated once more by the public functions for one particle and
 // one edge: in every position, walls in the plane of the motion included.
 #include <cellwalk/body/body.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/body/verified_stop.h>
+#include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/walk/locate.h>

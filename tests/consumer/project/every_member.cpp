@@ -7,7 +7,7 @@
 #include <cellwalk/environment/map.h>
 #include <cellwalk/environment/selection.h>
 #include <cellwalk/io/body_file.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/paper.h>
 #include <cellwalk/records/body_soup.h>

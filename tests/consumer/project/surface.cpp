@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // All components in one program: the surface of argv[1] is read, filled with tetrahedra and certified.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 

@@ -3,6 +3,7 @@
 // the definition of chains, with a chain that it accepts, and for the exact sweep, with an equal one.
 #include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
 #include <cellwalk/internal/walk/signs.h>
 

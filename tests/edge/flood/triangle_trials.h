@@ -3,7 +3,7 @@
 #ifndef CELLWALK_TESTS_EDGE_FLOOD_TRIANGLE_TRIALS_H
 #define CELLWALK_TESTS_EDGE_FLOOD_TRIANGLE_TRIALS_H
 
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/internal/kernel/random.h>
 

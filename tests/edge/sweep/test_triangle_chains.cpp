@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The complete sweep against the oracle that follows the definition of chains: on the worlds of the walk, and
 // on worlds of spikes and long edges, where edges slide in planes of walls.
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <gtest/gtest.h>
 

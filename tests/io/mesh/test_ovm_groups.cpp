@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Named groups of facets and cells in .ovm files.
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <gtest/gtest.h>
 

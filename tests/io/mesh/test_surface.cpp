@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/io/parse_surface.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <gtest/gtest.h>
 #include <zlib.h>

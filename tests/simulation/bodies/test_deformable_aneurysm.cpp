@@ -3,7 +3,7 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/body_shapes.h>
 #include <cellwalk/internal/simulation/world.h>
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <gtest/gtest.h>

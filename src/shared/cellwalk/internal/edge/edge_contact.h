@@ -3,8 +3,8 @@
 #ifndef CELLWALK_INTERNAL_EDGE_EDGE_CONTACT_H
 #define CELLWALK_INTERNAL_EDGE_EDGE_CONTACT_H
 
-#include <cellwalk/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/ridge_relink.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 namespace cellwalk::detail {

@@ -5,6 +5,7 @@
 #define CELLWALK_INTERNAL_EDGE_FLAT_FACES_H
 
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 #include <cstddef>
 #include <optional>

@@ -4,7 +4,7 @@
 #define CELLWALK_INTERNAL_EDGE_MAY_INTERSECT_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 #include <boost/container/small_vector.hpp>
 

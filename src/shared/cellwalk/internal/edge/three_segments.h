@@ -6,7 +6,7 @@
 #define CELLWALK_INTERNAL_EDGE_THREE_SEGMENTS_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 namespace cellwalk {
 

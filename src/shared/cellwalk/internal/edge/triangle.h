@@ -5,7 +5,7 @@
 #define CELLWALK_INTERNAL_EDGE_TRIANGLE_H
 
 #include <cellwalk/edge/chain.h>
-#include <cellwalk/edge/swept_triangle.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/walk/contact.h>
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 #define CELLWALK_INTERNAL_EDGE_WEDGE_H
 
 #include <cellwalk/internal/edge/face.h>
+#include <cellwalk/internal/edge/swept_triangle.h>
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_CHECK_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_CELL_CHECK_H
 
-#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 
 #include <cstddef>
 #include <string>

@@ -4,7 +4,7 @@
 #define CELLWALK_INTERNAL_IO_OVM_WRITER_H
 
 #include <cellwalk/internal/io/atomic_file.h>
-#include <cellwalk/io/ovm.h>
+#include <cellwalk/io/mesh_file.h>
 
 namespace cellwalk::io {
 

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_IO_PARSE_SURFACE_H
 #define CELLWALK_INTERNAL_IO_PARSE_SURFACE_H
 
-#include <cellwalk/io/surface_file.h>
+#include <cellwalk/io/mesh_file.h>
 
 #include <string>
 #include <string_view>

@@ -4,7 +4,7 @@
 #define CELLWALK_INTERNAL_MESHING_MESH3_H
 
 #include <cellwalk/meshing/mesher_limits.h>
-#include <cellwalk/meshing/surface_check.h>
+#include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/records/cell_soup.h>
 #include <cellwalk/records/surface_soup.h>
 

@@ -16,7 +16,6 @@
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>
-#include <cellwalk/walk/particle.h>
 #include <cellwalk/walk/walk.h>
 
 #include <array>

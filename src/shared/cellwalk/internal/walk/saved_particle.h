@@ -3,7 +3,7 @@
 #ifndef CELLWALK_INTERNAL_WALK_SAVED_PARTICLE_H
 #define CELLWALK_INTERNAL_WALK_SAVED_PARTICLE_H
 
-#include <cellwalk/walk/particle.h>
+#include <cellwalk/walk/locate.h>
 
 namespace cellwalk::detail {
 

@@ -4,7 +4,7 @@
 #ifndef CELLWALK_INTERNAL_WALK_SIGNS_H
 #define CELLWALK_INTERNAL_WALK_SIGNS_H
 
-#include <cellwalk/environment/cell_shape.h>
+#include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/walk/walk.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The motion of an edge: one of its ends walks, the other stands still.
-#ifndef CELLWALK_EDGE_SWEPT_TRIANGLE_H
-#define CELLWALK_EDGE_SWEPT_TRIANGLE_H
+// The triangle that an edge sweeps, and the path of its end.
+#ifndef CELLWALK_INTERNAL_EDGE_SWEPT_TRIANGLE_H
+#define CELLWALK_INTERNAL_EDGE_SWEPT_TRIANGLE_H
 
-#include <cellwalk/walk/walk.h>
+#include <cellwalk/walk/locate.h>
 
 #include <span>
 
@@ -30,4 +30,4 @@ struct Vertex_path {
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_EDGE_SWEPT_TRIANGLE_H
+#endif  // CELLWALK_INTERNAL_EDGE_SWEPT_TRIANGLE_H
