@@ -12,6 +12,7 @@
 // tetrahedra visited).
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/strategy.h>
 

@@ -24,6 +24,12 @@ inline Touch to_touch(const std::string& word) {
   return choose<Touch>(word, "touch", {{"pass", Touch::pass}, {"stop", Touch::stop}});
 }
 
+inline Sweep to_sweep(const std::string& word) {
+  return choose<Sweep>(
+      word, "sweep",
+      {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}});
+}
+
 struct Sweep_words {
   std::string sweep, touch, search, search_cells;
   double tolerance;
@@ -34,9 +40,7 @@ struct Sweep_words {
 /// \throw UsageError for a word that is none, or a tolerance outside (0,1]
 inline Sweep_options to_sweep_options(const Sweep_words& words, Search_options& search) {
   Sweep_options options;
-  options.sweep = choose<Sweep>(
-      words.sweep, "sweep",
-      {{"three_segments", Sweep::three_segments}, {"triangle", Sweep::triangle}, {"faces", Sweep::faces}});
+  options.sweep = to_sweep(words.sweep);
   options.touch = to_touch(words.touch);
   search.below = choose<bool>(words.search_limit, "search_limit", {{"below", true}, {"none", false}});
   const auto method =

@@ -62,7 +62,7 @@ Reshape_request to_request(const Reshape_words& words) {
   need_at_least(1, words.most_contacts, "most_contacts");
   request.options.most_rounds = words.most_rounds;
   request.options.most_pushes = words.most_pushes;
-  request.options.body.sweep = to_sweep_options({words.sweep, "pass", "exact", "flooded", 1});
+  request.options.body.sweep.sweep = to_sweep(words.sweep);
   request.options.body.most_contacts = words.most_contacts;
   return request;
 }
