@@ -5,7 +5,7 @@
 #include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/internal/loading/report.h>
-#include <cellwalk/query/kernel_choice.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 #include <cellwalk/query/query.h>
 
 #include <fmt/core.h>

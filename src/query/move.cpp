@@ -2,7 +2,7 @@
 // The walks from all sides of the start, of which the one that gets furthest is the answer.
 #include <cellwalk/internal/edge/sweep_along.h>
 #include <cellwalk/internal/kernel/check_finite.h>
-#include <cellwalk/query/kernel_choice.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 
 #include <vector>
 

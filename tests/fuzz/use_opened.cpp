@@ -2,7 +2,7 @@
 #include "fuzz/use_opened.h"
 
 #include <cellwalk/body/body.h>
-#include <cellwalk/query/kernel_choice.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 #include <cellwalk/query/query.h>
 #include <cellwalk/reshape/reshaping.h>
 

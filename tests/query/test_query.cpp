@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Questions about points and edges in no cell: two squares of the plane with a membrane between them.
 #include <cellwalk/environment/environment.h>
-#include <cellwalk/query/kernel_choice.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 #include <cellwalk/query/query.h>
 
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/edge/sweep_along.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 #include <cellwalk/kernel/error.h>
-#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/query.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #ifndef CELLWALK_CLI_QUERY_KERNEL_NAMES_H
 #define CELLWALK_CLI_QUERY_KERNEL_NAMES_H
 
-#include <cellwalk/query/kernel_choice.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 
 #include <initializer_list>
 #include <utility>

@@ -5,8 +5,8 @@
 
 #include <cellwalk/edge/contact_search.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/query/kernel_choice.h>
 #include <cellwalk/internal/ranks/ranks.h>
-#include <cellwalk/query/kernel_choice.h>
 #include <cellwalk/query/query.h>
 
 #include <cstddef>

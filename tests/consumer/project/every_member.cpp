@@ -47,7 +47,7 @@ void keep_environments() {
       +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
       &Locator<D>::particle_at, &Locator<D>::particles_at);
   keep(+[](const Snapshot<D>& s, const Locator<D>& l, const Point<D>& x, Edge_counts& c) {
-    return answer_move(s, l, x, x, Touch::pass, Walk_method{}, c);
+    return answer_move(s, l, x, x, Touch::pass, c);
   });
 
   keep(&Environment<D>::build, &moved<Environment<D>>,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Motions of points by any number policy and strategy, for those who repeat the paper.
-#ifndef CELLWALK_QUERY_KERNEL_CHOICE_H
-#define CELLWALK_QUERY_KERNEL_CHOICE_H
+#ifndef CELLWALK_INTERNAL_QUERY_KERNEL_CHOICE_H
+#define CELLWALK_INTERNAL_QUERY_KERNEL_CHOICE_H
 
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/query/query.h>
@@ -56,4 +56,4 @@ Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, co
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_QUERY_KERNEL_CHOICE_H
+#endif  // CELLWALK_INTERNAL_QUERY_KERNEL_CHOICE_H
