@@ -133,10 +133,10 @@ class Planted(unittest.TestCase):
 
     def test_users_see_public_headers_only(self):
         self.shared("walk/signs.h")
-        for path in ("python/bindings/module.cpp", "examples/first.cpp"):
-            self.write(path, SPDX + "#include <cellwalk/internal/walk/signs.h>\n")
-            self.assert_caught(f"{path}:2", "is not for users")
-            self.write(path, SPDX + "#include <cellwalk/walk/walk.h>\n")
+        self.write("examples/first.cpp", SPDX + "#include <cellwalk/internal/walk/signs.h>\n")
+        self.assert_caught("examples/first.cpp:2", "is not for users")
+        self.write("examples/first.cpp", SPDX + "#include <cellwalk/walk/walk.h>\n")
+        self.write("python/bindings/module.cpp", SPDX + "#include <cellwalk/internal/walk/signs.h>\n")
         self.assertEqual(self.check(), [])
 
     def test_experiments_see_nothing_private_and_few_the_oracles(self):
