@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "environment_changes.h"
 #include "io/files/text.h"
 #include "json_node.h"
-#include "environment_changes.h"
 
 namespace cellwalk::io {
 

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "environment_changes.h"
 #include "io/files/text.h"
 #include "json_node.h"
 #include "scene_bodies.h"
-#include "environment_changes.h"
 
 namespace cellwalk::io {
 namespace {
