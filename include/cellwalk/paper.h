@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // For those who repeat the paper: number policies that Exact is compared with, strategies of the walk, and
-// searches for the contacts of edges. Others need none of it, as
-// <cellwalk/cellwalk.h> decides and locates exactly.
+// searches for the contacts of edges. Others need none of it: <cellwalk/cellwalk.h> decides and locates
+// exactly.
 #ifndef CELLWALK_PAPER_H
 #define CELLWALK_PAPER_H
 

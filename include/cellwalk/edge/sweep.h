@@ -7,6 +7,8 @@
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/walk/contact.h>
 
+#include <optional>
+
 namespace cellwalk {
 
 /// The check of a moving edge.
@@ -52,6 +54,25 @@ template <int D>
 Sweep_result<D> sweep_edge(const Snapshot<D>& snapshot, const Particle<D>& p, const Point<D>& target,
                            const Particle<D>& q, const Chain& before, const Sweep_options& options,
                            Edge_counts& counts);
+
+/// The contact of a vertex whose walk from one point to another is blocked.
+/// \param snapshot in which the vertex walks
+/// \param from,target the ends of the motion
+/// \param met the contact of that walk, whose place and normal are taken over
+/// \param counts raised by the tests
+/// \pre the signs of the walk were exact: the target lies outside the cell met.cell
+/// Cost: some signs for each facet of the last cell, and a rational number.
+template <int D>
+Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
+                          const Contact<D>& met, Walk_counts& counts);
+
+/// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed
+/// wall or is blocked.
+/// \throw Error as walk()
+/// Cost: that of a walk and a flood along it, and rational arithmetic for each wall near it.
+template <int D>
+std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
+                                      const Point<D>& target, Edge_counts& counts);
 
 }  // namespace cellwalk
 

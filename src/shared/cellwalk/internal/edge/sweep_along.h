@@ -50,25 +50,6 @@ std::optional<Free_chain> free_chain(const Snapshot<D>& snapshot, const Vertex_p
                                      const Particle<D>& q, const Chain& before, const Sweep_options& options,
                                      Edge_counts& counts);
 
-/// The contact of a vertex whose walk from one point to another is blocked.
-/// \param snapshot in which the vertex walks
-/// \param from,target the ends of the motion
-/// \param met the contact of that walk, whose place and normal are taken over
-/// \param counts raised by the tests
-/// \pre the signs of the walk were exact: the target lies outside the cell met.cell
-/// Cost: some signs for each facet of the last cell, and a rational number.
-template <int D>
-Contact<D> vertex_contact(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& target,
-                          const Contact<D>& met, Walk_counts& counts);
-
-/// Touch::stop for a particle without edges: the first point off its start at which its motion meets a closed
-/// wall or is blocked.
-/// \throw Error as walk()
-/// Cost: that of a walk and a flood along it, and rational arithmetic for each wall near it.
-template <int D>
-std::optional<Contact<D>> first_touch(const Snapshot<D>& snapshot, const Particle<D>& p,
-                                      const Point<D>& target, Edge_counts& counts);
-
 /// The first point at which a closed wall meets the edge that sweeps a closed triangle, including its start
 /// position; for a = q the first point at which a wall meets the segment ab. This is a hit in the sense of
 /// traces: it depends on the geometry only, not on the side of a wall on which the edge lies.
