@@ -84,16 +84,6 @@ void check_repeated_facets(const Traced_surface& surface, const std::string& nam
   }
 }
 
-bool is_on_one_line(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
-  Predicate_counts counts;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    if (Exact::orientation(counts, Point<2>{a[i], a[j]}, Point<2>{b[i], b[j]}, Point<2>{c[i], c[j]}) != 0)
-      return false;
-  }
-  return true;
-}
-
 void check_degenerate_facets(const Traced_surface& surface, const std::string& name) {
   std::size_t degenerate = 0;
   std::uint32_t first = 0;
@@ -207,6 +197,16 @@ std::vector<std::uint32_t> merged_numbers(const std::vector<Point<3>>& points) {
 }
 
 }  // namespace
+
+bool is_on_one_line(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  Predicate_counts counts;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (Exact::orientation(counts, Point<2>{a[i], a[j]}, Point<2>{b[i], b[j]}, Point<2>{c[i], c[j]}) != 0)
+      return false;
+  }
+  return true;
+}
 
 Traced_surface clean(const Surface_soup& soup, const std::string& name, Surface_report& report) {
   report.points_read = soup.points.size();

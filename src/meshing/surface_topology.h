@@ -24,6 +24,9 @@ struct Traced_surface {
 /// \throw Error(input) if the surface is empty or malformed
 Traced_surface clean(const Surface_soup& soup, const std::string& name, Surface_report& report);
 
+/// True if the exact points lie on one line.
+bool is_on_one_line(const Point<3>& a, const Point<3>& b, const Point<3>& c);
+
 /// Checks that the surface is closed, manifold and not degenerate, and reverses facets so that neighbours
 /// agree.
 /// \throw Error(input)

@@ -17,6 +17,10 @@ struct Surface_soup {
   std::vector<std::vector<std::uint32_t>> facets;
 };
 
+/// Facets of a surface that lie within the space that it bounds, or are given on both sides: membranes,
+/// nothing, or a reason to refuse the surface.
+enum class Sheets { keep, open, refuse };
+
 /// A planar domain: straight segments, which bound the domain and its obstacles, and one point in each hole.
 /// Each segment becomes a wall.
 struct Planar_domain {

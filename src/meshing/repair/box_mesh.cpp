@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The call of TetGen with a box of odd proportions, and floods across facets that are no triangles.
+#include "box_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "changes.h"
+#include "winding.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// The corners of the box lie this far outside in parts of the size. They are not symmetric: TetGen fails if
+/// all eight lie on a sphere with the surface.
+constexpr std::array<Point<3>, 8> shift{{{0.241, 0.263, 0.257},
+                                         {0.252, 0.244, 0.249},
+                                         {0.247, 0.258, 0.243},
+                                         {0.261, 0.251, 0.254},
+                                         {0.256, 0.246, 0.262},
+                                         {0.243, 0.259, 0.248},
+                                         {0.259, 0.242, 0.245},
+                                         {0.249, 0.254, 0.260}}};
+
+Surface_soup box_around(const Facets& surface) {
+  Point<3> low = surface.points[0], high = low;
+  for (const Point<3>& p : surface.points)
+    for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  Surface_soup box;
+  for (std::size_t i = 0; i < 8; ++i) {
+    Point<3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_high = (i >> k & 1) != 0;
+      p[k] = is_high ? high[k] + shift[i][k] * surface.size : low[k] - shift[i][k] * surface.size;
+    }
+    box.points.push_back(p);
+  }
+  box.facets = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return box;
+}
+
+/// Regions of smaller tetrahedra are slivers between almost equal triangles, whose winding numbers say little.
+constexpr double sliver = 1e-15;
+constexpr double leak = 0.01;
+
+}  // namespace
+
+Labels labels_of(const std::vector<Facet>& facets) {
+  Labels labels;
+  for (const Facet& f : facets) {
+    const auto [at, is_new] = labels.insert({sorted(f.corners), f});
+    if (!is_new && f.part < at->second.part) at->second = f;
+  }
+  return labels;
+}
+
+void compact(Facets& surface) {
+  std::vector<bool> is_used(surface.points.size(), false);
+  for (const Facet& f : surface.facets)
+    for (const std::uint32_t v : f.corners) is_used[v] = true;
+  std::vector<std::uint32_t> number(surface.points.size());
+  std::vector<Point<3>> points;
+  std::size_t given = 0;
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (!is_used[v]) continue;
+    given += v < surface.given_points;
+    number[v] = static_cast<std::uint32_t>(points.size());
+    points.push_back(surface.points[v]);
+  }
+  for (Facet& f : surface.facets)
+    for (std::uint32_t& v : f.corners) v = number[v];
+  surface.points = std::move(points);
+  surface.given_points = given;
+}
+
+Tetgen_result mesh_between(const Facets& surface, Frame frame, const Tetrahedralize_options& options,
+                           std::string& tolerance) {
+  std::vector<Surface_soup> surfaces(1);
+  surfaces[0].points = surface.points;
+  for (const auto& [triangle, facet] : labels_of(surface.facets))
+    surfaces[0].facets.push_back({facet.corners[0], facet.corners[1], facet.corners[2]});
+  std::sort(surfaces[0].facets.begin(), surfaces[0].facets.end());  // whatever the order of the labels
+  Feature_names names;
+  names.add("the surface", {}, surface.points.size(), {}, surfaces[0].facets.size());
+  if (frame == Frame::box) {
+    surfaces.push_back(box_around(surface));
+    names.add("the box", {}, 8, {}, 12);
+  }
+  const Owners owners = owners_of(surfaces);
+  Tetgen_result result;
+  tolerance = mesh_by_tetgen(surfaces, names, options, [&](const Tetgen_result& mesh) {
+    check_kept(mesh, surfaces, owners, names);
+    result = mesh;
+    for (auto& t : result.tetrahedra) t = positive(mesh, t);
+    // Neighbours lie opposite the corners, two of which may have changed places.
+    for (std::size_t t = 0; t < result.tetrahedra.size(); ++t)
+      if (result.tetrahedra[t] != mesh.tetrahedra[t])
+        std::swap(result.neighbours[t][0], result.neighbours[t][1]);
+  });
+  return result;
+}
+
+double volume_of(const Tetgen_result& mesh, std::uint32_t tetrahedron) {
+  const auto& t = mesh.tetrahedra[tetrahedron];
+  const Point<3>& o = mesh.points[t[0]];
+  return dot(mesh.points[t[1]] - o, cross(mesh.points[t[2]] - o, mesh.points[t[3]] - o)) / 6;
+}
+
+Point<3> centre_of(const Tetgen_result& mesh, std::uint32_t tetrahedron) {
+  Point<3> sum{};
+  for (const std::uint32_t v : mesh.tetrahedra[tetrahedron]) sum = sum + 0.25 * mesh.points[v];
+  return sum;
+}
+
+Regions find_regions(const Tetgen_result& mesh, const Labels& labels) {
+  constexpr std::uint32_t none = 0xffffffffu;
+  Regions result{std::vector<std::uint32_t>(mesh.tetrahedra.size(), none), {}};
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t seed = 0; seed < mesh.tetrahedra.size(); ++seed) {
+    if (result.of[seed] != none) continue;
+    const auto number = static_cast<std::uint32_t>(result.regions.size());
+    Region region{0, {seed, seed}, false};
+    std::array<double, 2> most{0, 0};
+    stack.assign(1, seed);
+    result.of[seed] = number;
+    while (!stack.empty()) {
+      const std::uint32_t t = stack.back();
+      stack.pop_back();
+      const double volume = volume_of(mesh, t);
+      region.volume += volume;
+      if (volume > most[0]) {
+        region.largest = {t, region.largest[0]};
+        most = {volume, most[0]};
+      } else if (volume > most[1]) {
+        region.largest[1] = t, most[1] = volume;
+      }
+      for (int i = 0; i < 4; ++i) {
+        const std::int32_t n = mesh.neighbours[t][i];
+        const bool is_triangle = labels.contains(opposite(mesh.tetrahedra[t], i));
+        if (n < 0) region.is_outer |= !is_triangle;
+        if (n < 0 || is_triangle || result.of[n] != none) continue;
+        result.of[n] = number;
+        stack.push_back(static_cast<std::uint32_t>(n));
+      }
+    }
+    result.regions.push_back(region);
+  }
+  return result;
+}
+
+Windings wind(const Tetgen_result& mesh, const Regions& regions, const Facets& oriented) {
+  Windings result;
+  const double least = sliver * oriented.size * oriented.size * oriented.size;
+  for (const Region& region : regions.regions) {
+    const Point<3> place = centre_of(mesh, region.largest[0]);
+    const double number = winding_number(oriented, place);
+    if (region.largest[1] != region.largest[0] && volume_of(mesh, region.largest[1]) > least) {
+      const double other = winding_number(oriented, centre_of(mesh, region.largest[1]));
+      if (std::abs(number - other) > leak)
+        refuse_surface(
+            fmt::format("has a hole that was not found: inside and outside are connected near {}; "
+                        "close it, or name a point of the free space (--inside)",
+                        describe(place)));
+    }
+    result.of.push_back(number);
+    const double nearest = std::round(number);
+    if (region.volume > least) result.error = std::max(result.error, std::abs(number - nearest));
+    result.volume += nearest * region.volume;
+    if (nearest > 1) result.covered_twice += (nearest - 1) * region.volume;
+  }
+  return result;
+}
+
+}  // namespace cellwalk::detail

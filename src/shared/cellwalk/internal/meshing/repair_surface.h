@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Environments of surfaces that are open, cross themselves, or are not manifold. The interpretation of a
+// surface is repaired, not its shape: its triangles become facets of a mesh of a larger box, and a region
+// that they bound is free if the surface winds around it.
+#ifndef CELLWALK_INTERNAL_MESHING_REPAIR_SURFACE_H
+#define CELLWALK_INTERNAL_MESHING_REPAIR_SURFACE_H
+
+#include <cellwalk/meshing/tetrahedralize.h>
+#include <cellwalk/records/cell_soup.h>
+#include <cellwalk/records/surface_soup.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace cellwalk {
+
+struct Repair_options {
+  /// Points on borders nearer than this become one; a part of the size, the diagonal of the surface
+  double seam = 1e-5;
+  /// Points nearer than this are joined if no mesher takes them apart; a part of the size; 0: never
+  double weld = 1e-7;
+  /// The farthest that walls may lie from the surface, caps and mouths aside; a part of the size
+  double max_move = 1e-3;
+  /// Points in the free space; empty: it is what the surface encloses, or the lumen of a thick wall
+  std::vector<Point<3>> inside{};
+  bool is_solid = false;  ///< free is what the surface encloses, even if it is a thick wall around a lumen
+  Sheets sheets = Sheets::keep;
+  Tetrahedralize_options mesh{};
+};
+
+/// A change of the surface, or an observation that decides about the free space.
+struct Repair_change {
+  std::string step;              ///< a key such as "joined"
+  std::string text;              ///< in words
+  std::size_t count = 0;         ///< how many there are
+  std::vector<Point<3>> places;  ///< of the first hundred
+  double measured = 0;           ///< the largest distance moved, as a part of the size; 0: nothing moves
+};
+
+/// A part of the walls that is not in the file: a cap over a hole, the mouth of a lumen, or a sheet inside.
+struct Repaired_part {
+  std::string name;        ///< of its group: "cap_1", "mouth_1", "sheet_1"; by descending area
+  std::size_t edges = 0;   ///< of its border; 0 for sheets
+  std::size_t facets = 0;  ///< triangles in the result
+  Point<3> centre{};
+  Vector<3> normal{};  ///< the mean one, out of the free space
+  double area = 0;
+  double width = 0;      ///< the diameter of the disc of the same area
+  double off_plane = 0;  ///< the largest distance of the border from its plane
+  /// Caps: the volume between it and the cone from its centre to its border: how far the volume depends on
+  /// the choice of the cap
+  double doubt = 0;
+};
+
+struct Repair_report {
+  std::vector<Repair_change> changes;  ///< in the order of the steps
+  std::vector<Repaired_part> parts;    ///< caps, mouths, sheets
+  double size = 0;                     ///< the diagonal of the surface
+  double volume = 0;                   ///< of the free space
+  double winding_error = 0;            ///< the largest distance of a region's winding number from an integer
+  double moved = 0;       ///< the largest distance of the walls from the surface; a part of the size
+  std::size_t walls = 0;  ///< triangles
+  std::size_t added_points = 0;
+  std::size_t out_of_bounds = 0;  ///< tetrahedra that violate the bounds of quality and size
+  std::string tolerance;          ///< see Tetrahedralize_report
+};
+
+struct Repaired_surface {
+  Cell_soup<3> soup;
+  Soup_groups groups;  ///< the facets of each part
+};
+
+/// Fills the space that a surface encloses, or the lumen of a thick wall, with tetrahedra. Every triangle of
+/// the surface that bounds the space is a wall, up to the changes reported.
+/// \throw Error(input) for a surface that is malformed, encloses nothing, leaks, crosses itself after all
+///        rounds of cuts, or whose walls would move farther than allowed; with a place and a remedy
+/// \throw Error(usage) for options out of range, or if there is no TetGen
+/// \throw Error(not_certified) as tetrahedralize()
+/// Cost: about 100 us a triangle, in the mean.
+Repaired_surface repair_surface(const Surface_soup& surface, const Repair_options& options,
+                                Repair_report& report);
+
+}  // namespace cellwalk
+
+#endif  // CELLWALK_INTERNAL_MESHING_REPAIR_SURFACE_H
