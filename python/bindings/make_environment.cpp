@@ -96,10 +96,24 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
   return share(std::move(loaded.environment), loaded.built.certificate, report.dump(), loaded.groups);
 }
 
+/// "auto", "solid", a point, or a list of points.
+void set_inside(const py::object& inside, Repair_options& repair) {
+  if (py::isinstance<py::str>(inside)) {
+    repair.is_solid = choose<bool>(inside.cast<std::string>(), "inside", {{"auto", false}, {"solid", true}});
+    return;
+  }
+  const auto points = inside.cast<py::sequence>();
+  if (py::len(points) != 0 && py::isinstance<py::sequence>(points[0]))
+    repair.inside = inside.cast<std::vector<Point<3>>>();
+  else
+    repair.inside = {inside.cast<Point<3>>()};
+}
+
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
                          bool simplicial, const std::string& duplicates, const std::string& mesher,
                          std::optional<double> quality, double cell_size, double distance,
-                         bool keep_obstacles, double tissue, double time_limit) {
+                         bool keep_obstacles, double tissue, double time_limit, bool strict,
+                         const py::object& inside) {
   const std::string name = py::str(path);
   Import_options options;
   options.tissue = tissue;
@@ -107,6 +121,8 @@ Shared_world import_mesh(const py::object& path, const std::vector<py::object>& 
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
                     quality, cell_size, distance, keep_obstacles};
   options.mesher.time_limit = time_limit;
+  options.mesher.is_strict = strict;
+  set_inside(inside, options.mesher.repair);
   options.mesher.on_wait = [] {  // Ctrl-C ends the mesher
     const py::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -149,20 +165,26 @@ void bind_makers(Environment_class& environment) {
           "duplicates: points with equal coordinates: \"refuse\", \"merge\", or \"keep\" apart (as a slit).")
       .def_static("load", &load, py::arg("path"), py::kw_only(), py::arg("duplicates") = "refuse",
                   "Reads a file of cells and certifies it unchanged.")
-      .def_static("import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
-                  py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
-                  py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
-                  py::arg("mesher") = "tetgen", py::arg("quality") = py::none(), py::arg("cell_size") = 0.0,
-                  py::arg("distance") = 0.0, py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
-                  py::arg("time_limit") = Mesher_options{}.time_limit,
-                  "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
-                  "necessary, a "
-                  "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "
-                  "triangles. `report` lists all changes.\n\n"
-                  "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
-                  "see reshape().\n"
-                  "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.\n"
-                  "time_limit: seconds that a mesher may take in all, in a process of its own.")
+      .def_static(
+          "import_mesh", &import_mesh, py::arg("path"), py::kw_only(),
+          py::arg("obstacles") = std::vector<py::object>{}, py::arg("split") = true,
+          py::arg("simplicial") = false, py::arg("duplicates") = "refuse", py::arg("mesher") = "tetgen",
+          py::arg("quality") = py::none(), py::arg("cell_size") = 0.0, py::arg("distance") = 0.0,
+          py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
+          py::arg("time_limit") = Mesher_options{}.time_limit, py::arg("strict") = false,
+          py::arg("inside") = "auto",
+          "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
+          "necessary, a "
+          "surface is filled with tetrahedra, without the obstacles, and a planar domain with "
+          "triangles. `report` lists all changes.\n\n"
+          "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
+          "see reshape().\n"
+          "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.\n"
+          "time_limit: seconds that a mesher may take in all, in a process of its own.\n"
+          "strict: surfaces that are open, not manifold or cross themselves are refused; otherwise "
+          "they are repaired, and caps, mouths and sheets are groups of facets.\n"
+          "inside: the free space: \"auto\", what the surface encloses, or the lumen of a thick wall; "
+          "\"solid\", always what it encloses; a point or points in it.")
       .def_static(
           "generate", &generate_environment, py::arg("kind"), py::kw_only(), py::arg("simplicial") = false,
           "Generates an environment. Kinds and options are those of `cellwalk "

@@ -64,6 +64,61 @@ void add_mesher_options(CLI::App& command, Mesher_options& options, double& tiss
                    "Keep the inside of obstacles and holes as solid cells");
 }
 
+/// Reads "X,Y,Z".
+Point<3> point_of(const std::string& text) {
+  Point<3> p;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
+    const std::string number = text.substr(begin, end == std::string::npos ? end : end - begin);
+    if (end == std::string::npos || !CLI::detail::lexical_cast(number, p[k]) || !is_finite(p))
+      throw Error(Error_code::usage,
+                  fmt::format("--inside: '{}' is neither auto, solid, nor a point X,Y,Z", text));
+    begin = end + 1;
+  }
+  return p;
+}
+
+/// Adds the options of surfaces with defects.
+void add_repair_options(CLI::App& command, Mesher_options& options) {
+  if (!mesher_parts().meshing) return;
+  CLI::Option* const strict = command.add_flag(
+      "--strict", options.is_strict, "Refuse surfaces that are open, not manifold or cross themselves");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--inside",
+          [&options](const std::vector<std::string>& values) {
+            for (const std::string& value : values) {
+              if (value == "solid")
+                options.repair.is_solid = true;
+              else if (value != "auto")
+                options.repair.inside.push_back(point_of(value));
+            }
+          },
+          "The free space: auto: what the surface encloses, or the lumen of a thick wall; solid: always what "
+          "it encloses; a point: the space around it, up to the narrowest places on the ways out. Several "
+          "points for one space")
+      ->allow_extra_args(false)
+      ->excludes(strict)
+      ->default_str("auto")
+      ->type_name("auto|solid|X,Y,Z");
+  const auto part = [&](const char* name, double& value, const char* what) {
+    command.add_option(name, value, what)
+        ->check(number_from(0, "of at least 0"))
+        ->excludes(strict)
+        ->type_name("REL")
+        ->capture_default_str();
+  };
+  part("--seam", options.repair.seam, "Join points of borders nearer than this part of the surface's size");
+  part("--weld", options.repair.weld,
+       "Join any points nearer than this part of the size, if no mesher takes them apart; 0: never");
+  part("--max-move", options.repair.max_move,
+       "Refuse a surface whose walls would lie farther from it than this part of its size");
+  add_choice(command, "--sheets", options.repair.sheets,
+             {{"keep", Sheets::keep}, {"open", Sheets::open}, {"refuse", Sheets::refuse}},
+             "Facets inside, or given on both sides: membranes, nothing, or a reason to refuse the surface");
+}
+
 std::string text(const Import_report& report) {
   std::string text;
   for (const Import_report::Stage& stage : report.stages)
@@ -107,8 +162,7 @@ void add_import(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "import", "Make a certified environment of a mesh; says what was read, changed and refused");
   command
-      ->add_option("mesh", options->mesh,
-                   "Cells, a closed surface, or a planar domain: " + io::supported_formats())
+      ->add_option("mesh", options->mesh, "Cells, a surface, or a planar domain: " + io::supported_formats())
       ->required()
       ->type_name("MESH");
   add_environment_output(*command, options->environment);
@@ -117,6 +171,7 @@ void add_import(CLI::App& app, Action& chosen) {
                    "A closed surface inside; may be given several times")
       ->type_name("MESH2");
   add_mesher_options(*command, options->import.mesher, options->import.tissue);
+  add_repair_options(*command, options->import.mesher);
   CLI::Option* const no_split = command->add_flag(
       "--no-split", options->no_split, "Refuse cells that are not exactly convex instead of splitting");
   command

@@ -55,6 +55,8 @@ class Import {
     if (!options_.obstacles.empty()) return "--obstacle";
     if (mesher.quality) return "--quality";
     if (mesher.cell_size != 0) return "--cell-size";
+    if (mesher.is_strict) return "--strict";
+    if (mesher.repair.is_solid || !mesher.repair.inside.empty()) return "--inside";
     return mesher.distance != 0 ? "--distance" : nullptr;
   }
 
@@ -92,9 +94,13 @@ class Import {
 
   template <int D>
   Imported_environment build_meshed(Meshed<D> meshed) {
+    if (!meshed.repairs.empty()) {
+      report_.stages.push_back({"repaired", std::move(meshed.repairs)});
+      report_.json["repaired"] = std::move(meshed.repaired);
+    }
     report_.stages.push_back({"meshed", std::move(meshed.lines)});
     report_.json["meshed"] = std::move(meshed.report);
-    return build(std::move(meshed.soup), {});
+    return build(std::move(meshed.soup), meshed.groups);
   }
 
   template <int D>

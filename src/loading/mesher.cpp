@@ -3,6 +3,7 @@
 #include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/internal/loading/report.h>
 #include <cellwalk/internal/meshing/mesh3.h>
+#include <cellwalk/internal/meshing/repair_surface.h>
 #include <cellwalk/internal/meshing/tissue.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/meshing/tetrahedralize.h>
@@ -57,21 +58,13 @@ std::string bounds_of(const Tetrahedralize_options& options) {
   return text;
 }
 
-Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
-                      const Mesher_options& options) {
-  if (options.distance != 0)
-    refuse_option("--distance goes with --mesher mesh3: TetGen keeps the surface exactly");
-  Tetrahedralize_options tetgen;
-  tetgen.quality = options.quality.value_or(tetgen.quality);
-  tetgen.cell_size = options.cell_size;
-  tetgen.keep_obstacles = options.keep_obstacles;
-  tetgen.obstacle_names = options.obstacle_names;
-  tetgen.limits = {options.time_limit, options.on_wait};
-  Tetrahedralize_report report;
-  Meshed<3> meshed{tetrahedralize(surface, obstacles, tetgen, &report), {}, {}};
+/// The lines that surfaces with and without repairs have in common.
+template <class Report>
+void add_cells(const Report& report, std::size_t walls, const Tetrahedralize_options& tetgen,
+               Meshed<3>& meshed) {
   meshed.lines.push_back(
       fmt::format("TetGen: {} tetrahedra, {} points added inside, all {} surface triangles kept",
-                  meshed.soup.cell_count(), report.added_points, report.boundary_facets));
+                  meshed.soup.cell_count(), report.added_points, walls));
   if (report.out_of_bounds != 0)
     meshed.lines.push_back(
         fmt::format("{} tetrahedra violate the bound of {}", report.out_of_bounds, bounds_of(tetgen)));
@@ -83,10 +76,113 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
                    {"cells", meshed.soup.cell_count()},
                    {"out_of_bounds", report.out_of_bounds},
                    {"added_points", report.added_points},
-                   {"boundary_facets", report.boundary_facets},
-                   {"solid_cells", report.solid_cells}};
+                   {"boundary_facets", walls}};
+}
+
+std::string place(const Point<3>& p) {
+  return fmt::format("({}, {}, {})", rounded(p[0]), rounded(p[1]), rounded(p[2]));
+}
+
+nlohmann::ordered_json to_json(const Repaired_part& part) {
+  return {{"name", part.name},     {"edges", part.edges},         {"facets", part.facets},
+          {"centre", part.centre}, {"normal", part.normal},       {"area", part.area},
+          {"width", part.width},   {"off_plane", part.off_plane}, {"doubt", part.doubt}};
+}
+
+/// "cap_1: 24 edges, area 130, width 12.9, centre (..), normal (..), up to 3.5 off its plane: the volume
+/// depends on it by 5.8 %".
+std::string describe(const Repaired_part& part, const Repair_report& report) {
+  std::string text = fmt::format("{}: {}area {:.3g}, width {:.3g}, centre {}, normal {}", part.name,
+                                 part.edges != 0 ? fmt::format("{} edges, ", part.edges) : "", part.area,
+                                 part.width, place(part.centre), place(part.normal));
+  constexpr double visible = 1e-4;
+  if (part.off_plane > visible * report.size)
+    text += fmt::format(", up to {:.2g} off its plane", part.off_plane);
+  if (part.doubt > visible * report.volume)
+    text += fmt::format(": the volume depends on it by {:.2g} %", 100 * part.doubt / report.volume);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Repair_report& report) {
+  nlohmann::ordered_json json{{"size", report.size},
+                              {"volume", report.volume},
+                              {"moved", report.moved},
+                              {"winding_error", report.winding_error},
+                              {"changes", nlohmann::ordered_json::array()},
+                              {"parts", nlohmann::ordered_json::array()}};
+  for (const Repair_change& c : report.changes)
+    json["changes"].push_back({{"step", c.step},
+                               {"text", c.text},
+                               {"count", c.count},
+                               {"moved", c.measured},
+                               {"places", c.places}});
+  for (const Repaired_part& part : report.parts) json["parts"].push_back(to_json(part));
+  return json;
+}
+
+/// Further ones are in the JSON report.
+constexpr std::size_t most_parts_listed = 12;
+
+Meshed<3> with_repair(const Surface_soup& surface, const Mesher_options& options,
+                      const Tetrahedralize_options& tetgen) {
+  Repair_report report;
+  Repaired_surface repaired = repair_surface(surface, options.repair, tetgen, report);
+  Meshed<3> meshed{std::move(repaired.soup), {}, {}};
+  meshed.groups = std::move(repaired.groups);
+  for (const Repair_change& change : report.changes) meshed.repairs.push_back(change.text);
+  std::size_t listed = 0;
+  for (const Repaired_part& part : report.parts)
+    if (listed++ < most_parts_listed) meshed.repairs.push_back(describe(part, report));
+  if (listed > most_parts_listed)
+    meshed.repairs.push_back(fmt::format("and {} smaller ones", listed - most_parts_listed));
+  meshed.repairs.push_back(fmt::format("walls lie within {:.2g} of the surface, {:.1g} of its size",
+                                       report.moved * report.size, report.moved));
+  meshed.repaired = to_json(report);
+  add_cells(report, report.walls, tetgen, meshed);
+  add_tolerance(report.tolerance, meshed);
+  return meshed;
+}
+
+/// What to say of a closed surface whose inside may not be wanted.
+void note_lumen(const Surface_soup& surface, Meshed<3>& meshed) {
+  const auto lumen = lumen_around(check_surface(surface));
+  if (!lumen) return;
+  meshed.lines.push_back(fmt::format(
+      "the surface is a thick wall, and its material is free; for the lumen that it surrounds, give "
+      "--inside {:.4g},{:.4g},{:.4g}",
+      (*lumen)[0], (*lumen)[1], (*lumen)[2]));
+  meshed.report["lumen"] = *lumen;
+}
+
+Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
+                      const Mesher_options& options) {
+  if (options.distance != 0)
+    refuse_option("--distance goes with --mesher mesh3: TetGen keeps the surface exactly");
+  Tetrahedralize_options tetgen;
+  tetgen.quality = options.quality.value_or(tetgen.quality);
+  tetgen.cell_size = options.cell_size;
+  tetgen.keep_obstacles = options.keep_obstacles;
+  tetgen.obstacle_names = options.obstacle_names;
+  tetgen.limits = {options.time_limit, options.on_wait};
+  const bool may_repair = obstacles.empty() && !options.is_strict;
+  if (!options.repair.inside.empty()) {
+    if (!may_repair) refuse_option("--inside goes neither with --strict nor with --obstacle");
+    return with_repair(surface, options, tetgen);
+  }
+  Tetrahedralize_report report;
+  Meshed<3> meshed;
+  try {
+    meshed.soup = tetrahedralize(surface, obstacles, tetgen, &report);
+  } catch (const Error& error) {
+    const bool is_imperfect = error.code() == Error_code::input || error.code() == Error_code::not_certified;
+    if (!is_imperfect || !may_repair) throw;
+    return with_repair(surface, options, tetgen);
+  }
+  add_cells(report, report.boundary_facets, tetgen, meshed);
+  meshed.report["solid_cells"] = report.solid_cells;
   add_tolerance(report.tolerance, meshed);
   add_surfaces(report, meshed);
+  if (obstacles.empty() && !options.is_strict && !options.repair.is_solid) note_lumen(surface, meshed);
   return meshed;
 }
 
@@ -134,12 +230,9 @@ Meshed<3> add_tissue(Cell_soup<3> cells, double thickness, const Mesher_options&
   tissue.limits = {options.time_limit, options.on_wait};
   Tissue_report report;
   Meshed<3> meshed{surround_by_tissue(std::move(cells), tissue, &report), {}, {}};
-  const auto corner = [](const Point<3>& p) {
-    return fmt::format("({}, {}, {})", rounded(p[0]), rounded(p[1]), rounded(p[2]));
-  };
   meshed.lines.push_back(
       fmt::format("{} solid tetrahedra to a box from {} to {}, all {} boundary triangles kept",
-                  report.solid_cells, corner(report.low), corner(report.high), report.inner_facets));
+                  report.solid_cells, place(report.low), place(report.high), report.inner_facets));
   if (report.out_of_bounds != 0)
     meshed.lines.push_back(
         fmt::format("{} of them violate the bound of quality {:g}", report.out_of_bounds, tissue.quality));

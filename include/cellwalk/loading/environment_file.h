@@ -90,6 +90,10 @@ struct Mesher_options {
   bool keep_obstacles = false;  ///< not by Mesh_3
   /// Names of the obstacles in messages; default: "obstacle 1", ...
   std::vector<std::string> obstacle_names{};
+  /// Surfaces that are not closed, not manifold or cross themselves are refused, as surfaces with obstacles
+  /// always are, and for Mesh_3; false: they are repaired
+  bool is_strict = false;
+  Repair_options repair{};  ///< with points inside, also a surface without defects is meshed around them
   double time_limit = 600;  ///< seconds that TetGen or Mesh_3 may take in all, greater than 0
   /// Called at least every tenth of a second while TetGen or Mesh_3 runs. An exception that it throws ends
   /// the mesher and passes through.
@@ -109,11 +113,12 @@ struct Import_options {
 /// The report of an import, stage by stage. Nothing is repaired silently.
 struct Import_report {
   struct Stage {
-    std::string title;  ///< "read", "meshed", "changed", "noted" or "tissue"
+    std::string title;  ///< "read", "repaired", "meshed", "changed", "noted" or "tissue"
     std::vector<std::string> lines;
   };
   std::vector<Stage> stages;
-  nlohmann::ordered_json json;  ///< the same for programs: read, meshed, changed, tissue, certificate
+  nlohmann::ordered_json
+      json;  ///< the same for programs: read, repaired, meshed, changed, tissue, certificate
 };
 
 struct Imported_environment {
@@ -125,8 +130,9 @@ struct Imported_environment {
 };
 
 /// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed
-/// surface is filled with tetrahedra, a planar domain with triangles.
-/// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified)
+/// surface is filled with tetrahedra, after repairs if it needs any, a planar domain with triangles.
+/// \throw Error(input) if a file is unreadable, a surface encloses nothing, or an obstacle is not a closed
+///        surface, Error(not_certified)
 ///        with the cell and the reason, Error(usage) for obstacles without a surface, for tissue in 2D or as
 ///        surround_by_tissue(), and if this build cannot mesh
 /// Cost: that of the readers, the mesher and Environment::build().

@@ -25,9 +25,12 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     E, CGAL::Triangulation_data_structure_2<Vertex_base, CGAL::Constrained_triangulation_face_base_2<E>>,
     CGAL::Exact_intersections_tag>;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+using Side = std::pair<std::uint32_t, std::uint32_t>;  // of a triangle: its ends, ascending
 
 constexpr int most_rounds = 12;
-constexpr std::uint32_t no_point = 0xffffffffu;
+/// Corners are in a plane within this part of the distance at which points are joined, so that the points in
+/// which two triangles see the same place become one.
+constexpr double part_of_joined = 0.01;
 
 /// Results of CGAL::intersection: boost's variants up to CGAL 5, those of the standard from 6 on.
 template <class Visitor, class... T>
@@ -59,29 +62,109 @@ struct Collect {
 
 double round(const E::FT& x) { return CGAL::to_double(CGAL::exact(x)); }  // equal numbers alike
 
+/// A triangle seen along the axis that is the nearest to its normal, and its parts.
+class Cut_triangle {
+ public:
+  Cut_triangle(const E::Triangle_3& triangle, const Vector<3>& normal) : plane_(triangle.supporting_plane()) {
+    for (int k = 1; k < 3; ++k)
+      if (std::abs(normal[k]) > std::abs(normal[axis_])) axis_ = k;
+    for (int i = 0; i < 3; ++i) corner_[i] = parts_.insert(seen(triangle[i]));
+    is_turned_ =
+        CGAL::orientation(corner_[0]->point(), corner_[1]->point(), corner_[2]->point()) == CGAL::CLOCKWISE;
+  }
+
+  void insert(const Trace& trace) {
+    if (trace.first == trace.second)
+      parts_.insert(seen(trace.first));
+    else
+      parts_.insert_constraint(seen(trace.first), seen(trace.second));
+  }
+
+  /// Calls visit(k, p) for each point p on the side from corner k to the next.
+  template <class Visit>
+  void for_each_point_on_a_side(const Visit& visit) const {
+    for (auto v = parts_.finite_vertices_begin(); v != parts_.finite_vertices_end(); ++v) {
+      if (is_corner(v)) continue;
+      for (int k = 0; k < 3; ++k)
+        if (CGAL::collinear(corner_[k]->point(), v->point(), corner_[(k + 1) % 3]->point()))
+          visit(k, lifted(v->point()));
+    }
+  }
+
+  /// Appends the parts of a facet, with points numbered by `number`.
+  template <class Number>
+  void append(const Facet& facet, const Number& number, std::vector<Facet>& result) {
+    for (int i = 0; i < 3; ++i) corner_[i]->info() = facet.corners[i];
+    for (auto v = parts_.finite_vertices_begin(); v != parts_.finite_vertices_end(); ++v)
+      if (!is_corner(v)) v->info() = number(lifted(v->point()));
+    for (auto face = parts_.finite_faces_begin(); face != parts_.finite_faces_end(); ++face) {
+      Facet part = facet;
+      for (int i = 0; i < 3; ++i) part.corners[i] = face->vertex(i)->info();
+      if (is_turned_) turn(part);
+      const Triangle& c = part.corners;
+      if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) result.push_back(part);
+    }
+  }
+
+  /// A triangle whose corners are moved into this one's plane along its axis, if they are within a distance of
+  /// it. None are if all are and it would have no area.
+  E::Triangle_3 snapped(const E::Triangle_3& other, double distance) const {
+    std::array<E::Point_3, 3> p{other[0], other[1], other[2]};
+    for (E::Point_3& q : p) {
+      const E::Point_3 on_plane = lifted(seen(q));
+      if (std::abs(CGAL::to_double(on_plane[axis_] - q[axis_])) <= distance) q = on_plane;
+    }
+    return CGAL::collinear(p[0], p[1], p[2]) ? other : E::Triangle_3(p[0], p[1], p[2]);
+  }
+
+ private:
+  E::Point_2 seen(const E::Point_3& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
+  E::Point_3 lifted(const E::Point_2& p) const {
+    const std::array<E::FT, 3> normal{plane_.a(), plane_.b(), plane_.c()};
+    const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
+    std::array<E::FT, 3> x;
+    x[u] = p.x(), x[v] = p.y();
+    x[axis_] = -(normal[u] * p.x() + normal[v] * p.y() + plane_.d()) / normal[axis_];
+    return {x[0], x[1], x[2]};
+  }
+  bool is_corner(const Triangulation::Vertex_handle v) const {
+    return v == corner_[0] || v == corner_[1] || v == corner_[2];
+  }
+
+  E::Plane_3 plane_;
+  int axis_ = 0;
+  bool is_turned_ = false;
+  Triangulation parts_;
+  std::array<Triangulation::Vertex_handle, 3> corner_;
+};
+
 /// One round of cuts.
 class Round {
  public:
-  explicit Round(Facets& surface) : surface_(surface) {
+  /// \param apart corners nearer to the plane of another triangle are in it: pairs in a plane up to rounding
+  ///        are cut as such, and do not cross again in each round
+  Round(Facets& surface, double apart) : surface_(surface), apart_(apart) {
     for (std::uint32_t v = 0; v < surface.points.size(); ++v) number_.insert({surface.points[v], v});
   }
 
   void cut(const Pairs& pairs) {
-    std::unordered_map<std::uint32_t, std::vector<Trace>> traces;
     for (const auto& [f, g] : pairs) {
-      const auto found = CGAL::intersection(exact(f), exact(g));
-      if (!found) continue;
-      std::vector<Trace> common;
-      visit_found(Collect{&common}, *found);
-      for (const std::uint32_t h : {f, g}) traces[h].insert(traces[h].end(), common.begin(), common.end());
+      const E::Triangle_3 s = exact(f), t = exact(g);
+      Cut_triangle &at_f = triangle(f), &at_g = triangle(g);
+      insert(CGAL::intersection(s, at_f.snapped(t, apart_)), at_f);
+      insert(CGAL::intersection(at_g.snapped(s, apart_), t), at_g);
     }
+    cut_neighbours();
     std::vector<Facet> result;
+    const auto number = [this](const E::Point_3& p) {
+      return point({round(p.x()), round(p.y()), round(p.z())});
+    };
     for (std::uint32_t f = 0; f < surface_.facets.size(); ++f) {
-      const auto at = traces.find(f);
-      if (at == traces.end())
+      const auto at = cut_.find(f);
+      if (at == cut_.end())
         result.push_back(surface_.facets[f]);
       else
-        cut(f, at->second, result);
+        at->second.append(surface_.facets[f], number, result);
     }
     surface_.facets = std::move(result);
   }
@@ -92,55 +175,35 @@ class Round {
     const Facet& t = surface_.facets[f];
     return {exact(surface_.corner(t, 0)), exact(surface_.corner(t, 1)), exact(surface_.corner(t, 2))};
   }
-
-  void cut(std::uint32_t f, const std::vector<Trace>& traces, std::vector<Facet>& result) {
-    const Facet facet = surface_.facets[f];
-    const E::Triangle_3 triangle = exact(f);
-    // Seen along the axis that is the nearest to its normal. The projection turns it if its normal points
-    // against that axis.
-    const Vector<3> normal = area_vector(surface_, facet);
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(normal[k]) > std::abs(normal[axis])) axis = k;
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto seen = [&](const E::Point_3& p) { return E::Point_2(p[u], p[v]); };
-    Triangulation t;
-    std::array<typename Triangulation::Vertex_handle, 3> corner;
-    for (int i = 0; i < 3; ++i) {
-      corner[i] = t.insert(seen(triangle[i]));
-      corner[i]->info() = facet.corners[i];
-    }
-    const bool is_turned =
-        CGAL::orientation(corner[0]->point(), corner[1]->point(), corner[2]->point()) == CGAL::CLOCKWISE;
-    for (const auto& [from, to] : traces) {
-      if (from == to)
-        t.insert(seen(from));
-      else
-        t.insert_constraint(seen(from), seen(to));
-    }
-    const E::Plane_3 plane = triangle.supporting_plane();
-    for (auto vertex = t.finite_vertices_begin(); vertex != t.finite_vertices_end(); ++vertex) {
-      const typename Triangulation::Vertex_handle at = vertex;
-      if (std::find(corner.begin(), corner.end(), at) == corner.end())
-        vertex->info() = point(lifted(vertex->point(), plane, axis));
-    }
-    for (auto face = t.finite_faces_begin(); face != t.finite_faces_end(); ++face) {
-      Facet part = facet;
-      for (int i = 0; i < 3; ++i) part.corners[i] = face->vertex(i)->info();
-      if (is_turned) turn(part);
-      const Triangle& c = part.corners;
-      if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) result.push_back(part);
-    }
+  Side side(std::uint32_t f, int k) const {
+    const Triangle& t = surface_.facets[f].corners;
+    return std::minmax({t[k], t[(k + 1) % 3]});
   }
 
-  /// The point of a plane that is seen at p along an axis, rounded.
-  static Point<3> lifted(const E::Point_2& p, const E::Plane_3& plane, int axis) {
-    const std::array<E::FT, 3> normal{plane.a(), plane.b(), plane.c()};
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    Point<3> result;
-    result[u] = round(p.x()), result[v] = round(p.y());
-    result[axis] = round(-(normal[u] * p.x() + normal[v] * p.y() + plane.d()) / normal[axis]);
-    return result;
+  Cut_triangle& triangle(std::uint32_t f) {
+    const auto at = cut_.find(f);
+    if (at != cut_.end()) return at->second;
+    return cut_.try_emplace(f, exact(f), area_vector(surface_, surface_.facets[f])).first->second;
+  }
+
+  template <class Found>
+  static void insert(const Found& found, Cut_triangle& triangle) {
+    if (!found) return;
+    std::vector<Trace> traces;
+    visit_found(Collect{&traces}, *found);
+    for (const Trace& trace : traces) triangle.insert(trace);
+  }
+
+  /// Points on sides belong to all triangles with that side.
+  void cut_neighbours() {
+    std::map<Side, std::vector<E::Point_3>> points;
+    for (const auto& [f, parts] : cut_)
+      parts.for_each_point_on_a_side(
+          [&, f = f](int k, const E::Point_3& p) { points[side(f, k)].push_back(p); });
+    for (std::uint32_t f = 0; f < surface_.facets.size() && !points.empty(); ++f)
+      for (int k = 0; k < 3; ++k)
+        if (const auto at = points.find(side(f, k)); at != points.end())
+          for (const E::Point_3& p : at->second) triangle(f).insert({p, p});
   }
 
   std::uint32_t point(const Point<3>& p) {
@@ -150,8 +213,52 @@ class Round {
   }
 
   Facets& surface_;
+  double apart_;
   std::map<Point<3>, std::uint32_t> number_;
+  std::map<std::uint32_t, Cut_triangle> cut_;
 };
+
+/// Makes corners that lie on the side of another triangle, up to rounding, corners of all triangles with that
+/// side: seen from one of them they may lie inside, from the next one outside, so that neither is cut there.
+/// Triangles with a corner on their own opposite side are left out then.
+/// \return true if there were any
+bool split_sides(Facets& surface, const Pairs& pairs, double apart) {
+  std::map<Side, std::uint32_t> splits;
+  const auto look_at_side = [&](std::uint32_t a, std::uint32_t b, std::uint32_t v) {
+    const Vector<3> along = surface.points[b] - surface.points[a], to = surface.points[v] - surface.points[a];
+    const double whole = length(along), part = dot(along, to) / whole;
+    if (part > apart && part < whole - apart && length(cross(along, to)) <= apart * whole)
+      splits.insert({std::minmax({a, b}), v});
+  };
+  const auto look = [&](std::uint32_t f, std::uint32_t g) {
+    const Triangle& s = surface.facets[f].corners;
+    for (const std::uint32_t v : surface.facets[g].corners)
+      for (int k = 0; k < 3; ++k)
+        if (v != s[0] && v != s[1] && v != s[2]) look_at_side(s[k], s[(k + 1) % 3], v);
+  };
+  for (const auto& [f, g] : pairs) look(f, g), look(g, f);
+  for (const Facet& f : surface.facets)
+    for (int k = 0; k < 3; ++k) look_at_side(f.corners[k], f.corners[(k + 1) % 3], f.corners[(k + 2) % 3]);
+  if (splits.empty()) return false;
+  std::vector<Facet> result;
+  const auto append = [&](const auto& self, const Facet& facet, int first) -> void {
+    for (int k = first; k < 3; ++k) {  // halves are split at the other sides
+      const std::uint32_t a = facet.corners[k], b = facet.corners[(k + 1) % 3],
+                          c = facet.corners[(k + 2) % 3];
+      const auto at = splits.find(std::minmax({a, b}));
+      if (at == splits.end()) continue;
+      if (at->second == c) return;
+      Facet one = facet, other = facet;
+      one.corners[(k + 1) % 3] = other.corners[k] = at->second;
+      self(self, one, k + 1), self(self, other, k + 1);
+      return;
+    }
+    result.push_back(facet);
+  };
+  for (const Facet& facet : surface.facets) append(append, facet, 0);
+  surface.facets = std::move(result);
+  return true;
+}
 
 }  // namespace
 
@@ -159,7 +266,17 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
   Cut result;
   for (const auto& [f, g] : pairs) result.pairs.add(centre(surface, surface.facets[f]));
   const std::size_t points = surface.points.size();
-  for (; !pairs.empty(); pairs = crossing_pairs(surface)) {
+  const double apart = part_of_joined * joined_within;
+  const auto leave_out = [&] {
+    const Left_out left_out = leave_out_useless(surface);
+    result.left_out.collinear.count += left_out.collinear.count;
+    result.left_out.repeated.count += left_out.repeated.count;
+    pairs = crossing_pairs(surface);
+  };
+  for (;;) {
+    // The first round comes before: the sides of the file are split only where that does not suffice.
+    if (result.rounds > 0 && split_sides(surface, pairs, apart)) leave_out();
+    if (pairs.empty()) break;
     if (result.rounds++ == most_rounds)
       refuse_surface(
           fmt::format("crosses itself: {} still cross after {} rounds of cuts, the first at {}; "
@@ -167,14 +284,12 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
                       counted(pairs.size(), "pair of facets", "pairs of facets"), most_rounds,
                       describe(centre(surface, surface.facets[pairs[0].first]))));
     between();
-    Round(surface).cut(pairs);
+    Round(surface, apart).cut(pairs);
     const Found joined = weld(surface, joined_within, false);
     for (const Point<3>& place : joined.places) result.joined.add(place);
     result.joined.count += joined.count - joined.places.size();
     result.joined.measured = std::max(result.joined.measured, joined.measured);
-    const Left_out left_out = leave_out_useless(surface);
-    result.left_out.collinear.count += left_out.collinear.count;
-    result.left_out.repeated.count += left_out.repeated.count;
+    leave_out();
   }
   result.added_points = surface.points.size() - points;
   return result;

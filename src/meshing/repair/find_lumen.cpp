@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rays from the triangles of a surface to both sides.
 #include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/meshing/repair_surface.h>
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -95,3 +96,10 @@ std::optional<Point<3>> find_lumen(const Facets& oriented) {
 }
 
 }  // namespace cellwalk::detail
+
+std::optional<cellwalk::Point<3>> cellwalk::lumen_around(const Surface_soup& surface) {
+  detail::Facets facets;
+  facets.points = surface.points;
+  for (const auto& f : surface.facets) facets.facets.push_back({{f[0], f[1], f[2]}});
+  return detail::find_lumen(facets);
+}

@@ -46,7 +46,11 @@ std::vector<Triangle> cut_quadrangle(const std::vector<Point<3>>& points, const 
   const Cut one = cut(0), other = cut(1);
   // A fold by more than a right angle is that of a quadrangle that is not convex, or the wrong diagonal.
   if ((one.fold > 0) != (other.fold > 0)) return one.fold > 0 ? one.triangles : other.triangles;
-  return one.diagonal <= other.diagonal ? one.triangles : other.triangles;
+  // Both sides of a sheet are cut alike, also where rounding decides.
+  constexpr double rounding = 1e-9;
+  if (std::abs(one.diagonal - other.diagonal) <= rounding * one.diagonal)
+    return (std::min_element(q.begin(), q.end()) - q.begin()) % 2 == 0 ? one.triangles : other.triangles;
+  return one.diagonal < other.diagonal ? one.triangles : other.triangles;
 }
 
 std::vector<Triangle> cut_polygon(const std::vector<Point<3>>& points, const Loop& loop) {

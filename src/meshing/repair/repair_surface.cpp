@@ -37,7 +37,8 @@ constexpr double volume_tolerance = 1e-9, volume_tolerance_welded = 1e-6;
 
 class Repair {
  public:
-  Repair(const Repair_options& options, Repair_report& report) : options_(options), report_(report) {}
+  Repair(const Repair_options& options, const Tetrahedralize_options& mesh, Repair_report& report)
+      : options_(options), mesh_(mesh), report_(report) {}
 
   Repaired_surface run(const Surface_soup& soup) {
     prepare(soup);
@@ -64,7 +65,7 @@ class Repair {
     if (found.count != 0) say(step, counted(found.count, one, many) + " " + what, found);
   }
   void wait() const {
-    if (options_.mesh.limits.on_wait) options_.mesh.limits.on_wait();
+    if (mesh_.limits.on_wait) mesh_.limits.on_wait();
   }
 
   void leave_out() {
@@ -175,7 +176,7 @@ class Repair {
 
   Free_space mesh_and_choose(double tolerance) {
     compact(surface_);
-    Tetrahedralize_options coarse = options_.mesh;
+    Tetrahedralize_options coarse = mesh_;
     coarse.quality = coarse.cell_size = 0;
     Free_space space;
     space.mesh = mesh_between(surface_, Frame::box, coarse, report_.tolerance);
@@ -244,7 +245,7 @@ class Repair {
 
   Repaired_surface finish(Free_space space) {
     const double volume = free_volume(space);
-    if (options_.mesh.quality > 0 || options_.mesh.cell_size > 0) refine(space, volume);
+    if (mesh_.quality > 0 || mesh_.cell_size > 0) refine(space, volume);
     const std::vector<Facet> walls = walls_of(space);
     Part_names names;
     std::tie(report_.parts, names) = name_parts(space.mesh.points, walls, caps_);
@@ -259,7 +260,7 @@ class Repair {
                            static_cast<std::size_t>(std::count(is_on_wall.begin(), is_on_wall.end(), true));
     for (std::uint32_t t = 0; t < space.is_free.size(); ++t)
       report_.out_of_bounds +=
-          space.is_free[t] && is_out_of_bounds(space.mesh, space.mesh.tetrahedra[t], options_.mesh);
+          space.is_free[t] && is_out_of_bounds(space.mesh, space.mesh.tetrahedra[t], mesh_);
     return result;
   }
 
@@ -273,7 +274,7 @@ class Repair {
     Free_space fine;
     try {
       std::string tolerance;
-      fine.mesh = mesh_between(walls, Frame::none, options_.mesh, tolerance);
+      fine.mesh = mesh_between(walls, Frame::none, mesh_, tolerance);
       if (report_.tolerance.empty()) report_.tolerance = tolerance;
     } catch (const Error& error) {
       if (error.code() != Error_code::not_certified) throw;
@@ -309,6 +310,7 @@ class Repair {
   }
 
   const Repair_options& options_;
+  const Tetrahedralize_options& mesh_;
   Repair_report& report_;
   Facets given_;     // the triangles of the file
   Facets surface_;   // what becomes of them
@@ -316,7 +318,7 @@ class Repair {
   std::vector<Repaired_part> caps_;
 };
 
-void check(const Repair_options& options) {
+void check(const Repair_options& options, const Tetrahedralize_options& mesh) {
   const auto part = [](const char* name, double value) {
     if (!(value >= 0 && value < 1))
       throw Error(Error_code::usage, fmt::format("repair: {} must be a part of the size, from 0 to 1", name));
@@ -324,16 +326,16 @@ void check(const Repair_options& options) {
   part("--seam", options.seam), part("--weld", options.weld), part("--max-move", options.max_move);
   for (const Point<3>& p : options.inside)
     if (!is_finite(p)) throw Error(Error_code::usage, "repair: a point inside is not finite");
-  detail::check_bounds(options.mesh);
+  detail::check_bounds(mesh);
 }
 
 }  // namespace
 
 Repaired_surface repair_surface(const Surface_soup& surface, const Repair_options& options,
-                                Repair_report& report) {
-  check(options);
+                                const Tetrahedralize_options& mesh, Repair_report& report) {
+  check(options, mesh);
   report = {};
-  return Repair(options, report).run(surface);
+  return Repair(options, mesh, report).run(surface);
 }
 
 }  // namespace cellwalk

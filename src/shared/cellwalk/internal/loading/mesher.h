@@ -20,6 +20,9 @@ struct Meshed {
   Cell_soup<D> soup;
   std::vector<std::string> lines;
   nlohmann::ordered_json report;
+  std::vector<std::string> repairs{};  ///< of an imperfect surface, as lines
+  nlohmann::ordered_json repaired{};   ///< the same for programs
+  Soup_groups groups{};                ///< caps, mouths and sheets
 };
 
 /// The meshers of this build.
@@ -28,7 +31,8 @@ struct Mesher_parts {
 };
 Mesher_parts mesher_parts();
 
-/// Fills the interior of a closed surface, without the obstacles.
+/// Fills the interior of a closed surface, without the obstacles. A surface that is not closed and manifold,
+/// or that TetGen fails with, is repaired if it has no obstacles.
 /// \throw Error as the meshers; Error(usage) for options of the other mesher, and in a build without them
 Meshed<3> mesh_surface(const Surface_soup& surface, const std::vector<Surface_soup>& obstacles,
                        const Mesher_options& options);
