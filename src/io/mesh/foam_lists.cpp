@@ -51,8 +51,8 @@ class Label_appender {
   }
 
   void binary(std::size_t count) {
+    const std::string_view bytes = in_.labels(count, range_.what);
     const std::size_t each = in_.label_bytes();
-    const std::string_view bytes = in_.block(count, range_.what, each);
     for (std::size_t i = 0; i < count; ++i) append(in_.label_at(bytes.data() + i * each));
   }
 
@@ -125,8 +125,8 @@ std::vector<Point<3>> read_foam_points(Foam_reader& in) {
   std::vector<Point<3>> points;
   const std::size_t count = in.count("points");
   if (in.is_binary()) {
+    const std::string_view bytes = in.vectors(count, "points");
     const std::size_t each = in.scalar_bytes();
-    const std::string_view bytes = in.block(count, "points", 3 * each);
     points.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < 3; ++k) points[i][k] = in.scalar_at(bytes.data() + (3 * i + k) * each);

@@ -32,14 +32,6 @@ Number number_at(const char* bytes, bool is_swapped) {
   return std::bit_cast<Number>(copy);
 }
 
-/// The number of bytes of a value in a binary list of a type; 0 if such a list is text.
-std::size_t bytes_in_list(std::string_view type, const Foam_reader& in) {
-  if (type == "List<bool>") return 1;
-  if (type == "List<label>") return in.label_bytes();
-  if (type == "List<scalar>") return in.scalar_bytes();
-  return type == "List<vector>" ? 3 * in.scalar_bytes() : 0;
-}
-
 }  // namespace
 
 Foam_reader::Foam_reader(std::string file, std::string_view bytes) : file_(std::move(file)), bytes_(bytes) {
@@ -84,6 +76,7 @@ void Foam_reader::read_architecture(std::string_view text) {
   };
   width("label=", label_bytes_);
   width("scalar=", scalar_bytes_);
+  knows_widths_ = true;
   const bool is_big_endian = text.starts_with("MSB");
   is_swapped_ = is_big_endian == (std::endian::native == std::endian::little);
 }
@@ -163,6 +156,30 @@ void Foam_reader::expect_room(std::size_t count, std::string_view what, std::siz
                     count, what, rest().size()));
 }
 
+/// True if a block of such a size is closed where it ends.
+bool Foam_reader::ends_after(std::size_t count, std::size_t bytes_each) {
+  skip_blanks();
+  if (rest().empty() || count > (rest().size() - 1) / bytes_each) return false;
+  std::string_view after = rest().substr(1 + count * bytes_each);
+  after.remove_prefix(std::min(after.find_first_not_of(blanks_and_ends), after.size()));
+  if (!after.starts_with(')')) return false;
+  return after.size() == 1 || after[1] == ';' || after[1] == ')' ||
+         blanks_and_ends.find(after[1]) != std::string_view::npos;
+}
+
+std::string_view Foam_reader::labels(std::size_t count, std::string_view what) {
+  constexpr std::size_t narrow = 4, wide = 8;
+  if (!knows_widths_) label_bytes_ = !ends_after(count, narrow) && ends_after(count, wide) ? wide : narrow;
+  return block(count, what, label_bytes_);
+}
+
+std::string_view Foam_reader::vectors(std::size_t count, std::string_view what) {
+  constexpr std::size_t narrow = 4, wide = 8;
+  if (!knows_widths_)
+    scalar_bytes_ = !ends_after(count, 3 * wide) && ends_after(count, 3 * narrow) ? narrow : wide;
+  return block(count, what, 3 * scalar_bytes_);
+}
+
 std::string_view Foam_reader::block(std::size_t count, std::string_view what, std::size_t bytes_each) {
   if (count == 0) {
     if (takes('(')) expect(')', what);
@@ -187,8 +204,15 @@ double Foam_reader::scalar_at(const char* bytes) const {
 }
 
 void Foam_reader::skip_raw(std::string_view type) {
-  const std::size_t each = bytes_in_list(type, *this);
-  if (each != 0) block(count("values"), "values", each);
+  constexpr std::string_view what = "values of a list";
+  if (type == "List<bool>")
+    block(count(what), what, 1);
+  else if (type == "List<label>")
+    labels(count(what), what);
+  else if (type == "List<scalar>")
+    block(count(what), what, scalar_bytes_);
+  else if (type == "List<vector>")
+    vectors(count(what), what);
 }
 
 void Foam_reader::skip_entry() {

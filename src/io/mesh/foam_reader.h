@@ -37,9 +37,11 @@ class Foam_reader {
   /// Refuses a number of entries that take more bytes than follow.
   void expect_room(std::size_t count, std::string_view what, std::size_t bytes_each) const;
 
-  /// The bytes of a binary list, between its parentheses. An empty list may have none.
-  std::string_view block(std::size_t count, std::string_view what, std::size_t bytes_each);
-  std::size_t label_bytes() const { return label_bytes_; }    ///< 4 or 8
+  /// The bytes of a binary list of labels, or of vectors, between its parentheses. An empty list may have none.
+  /// Where the header does not say how wide numbers are, as in older versions, the end of the list does.
+  std::string_view labels(std::size_t count, std::string_view what);
+  std::string_view vectors(std::size_t count, std::string_view what);
+  std::size_t label_bytes() const { return label_bytes_; }    ///< 4 or 8, of the list read last
   std::size_t scalar_bytes() const { return scalar_bytes_; }  ///< 4 or 8
   std::int64_t label_at(const char* bytes) const;
   double scalar_at(const char* bytes) const;
@@ -54,13 +56,15 @@ class Foam_reader {
   void read_architecture(std::string_view text);
   void skip_blanks();
   void skip_raw(std::string_view type);
+  bool ends_after(std::size_t count, std::size_t bytes_each);
+  std::string_view block(std::size_t count, std::string_view what, std::size_t bytes_each);
   std::string_view rest() const { return bytes_.substr(at_); }
 
   std::string file_;
   std::string_view bytes_;
   std::size_t at_ = 0, token_ = 0;  ///< the next byte; where the last token begins
   std::string type_;
-  bool is_binary_ = false, is_swapped_ = false;
+  bool is_binary_ = false, is_swapped_ = false, knows_widths_ = false;
   std::size_t label_bytes_ = 4, scalar_bytes_ = 8;  ///< where the header does not say it
 };
 

@@ -49,7 +49,9 @@ const std::vector<Foam_encoding> encodings{{},
                                            {true, 32, 32},
                                            {true, 64, 32},
                                            {true, 32, 64, false},
-                                           {true, 32, 64, true, false}};
+                                           {true, 32, 64, true, false},
+                                           {true, 64, 64, true, false},
+                                           {true, 64, 32, false, false}};
 
 TEST(PolyMesh, EveryEncodingHoldsTheSameCells) {
   const Foam_mesh mesh = test::foam_block(3);
