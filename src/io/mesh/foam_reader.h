@@ -37,7 +37,7 @@ class Foam_reader {
   /// Refuses a number of entries that take more bytes than follow.
   void expect_room(std::size_t count, std::string_view what, std::size_t bytes_each) const;
 
-  /// The bytes of a binary list of labels, or of vectors, between its parentheses. An empty list may have none.
+  /// The bytes of a binary list of labels, or of vectors, between its parentheses; none if it is empty.
   /// Where the header does not say how wide numbers are, as in older versions, the end of the list does.
   std::string_view labels(std::size_t count, std::string_view what);
   std::string_view vectors(std::size_t count, std::string_view what);
