@@ -138,7 +138,7 @@ TEST_F(ImportFoam, MotionsStopAtABaffleAndPassAllOtherFaces) {
     Motion m;
     for (auto* p : {&m.from, &m.to})
       for (double& x : *p) {
-        x = 3 * static_cast<double>(random() % 1024 + 0.5) / 1024;
+        x = 3 * (static_cast<double>(random() % 1024) + 0.5) / 1024;
         table += std::to_string(x) + (p == &m.to && &x == &p->back() ? "\n" : ",");
       }
     motions.push_back(m);
