@@ -50,7 +50,7 @@ def read_page(text):
             code, message, files, command = cells_of(line)
             names, said = spans_of(files), spans_of(message)[0].strip()
             needs = {part[1]} if part else set()
-            if ", .msh, .mesh, .unv, .vtk" in said:  # all formats that are read, which a build without these parts tells otherwise
+            if ", .mesh, .unv, polyMesh (OpenFOAM), .vtk" in said:  # all formats that are read, which a build without these parts tells otherwise
                 needs |= {"vtk"}
             rows.append({"line": number, "code": int(code), "message": said, "needs": needs,
                          "files": list(zip(names[::2], names[1::2])), "command": spans_of(command)[0]})

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "fuzz/targets.h"
+#include "io/mesh/poly_mesh.h"
 #include "io/mesh/surface_parsers.h"
 
 namespace cellwalk::fuzz {
@@ -92,6 +93,30 @@ void poly(std::string_view bytes) {
 
 void wkt(std::string_view bytes) {
   reads([&] { demand_well_formed(io::parse_wkt("in", bytes)); });
+}
+
+void foam(std::string_view bytes) {
+  constexpr std::string_view between = "\n%%%%\n";
+  const auto next = [&](const char* name) {
+    const std::size_t end = std::min(bytes.find(between), bytes.size());
+    io::Named_bytes file{name, std::string(bytes.substr(0, end))};
+    bytes.remove_prefix(std::min(end + between.size(), bytes.size()));
+    return file;
+  };
+  io::Poly_mesh_files files{
+      next("points"), next("faces"), next("owner"), next("neighbour"), next("boundary"), {}, {}};
+  if (!bytes.empty()) files.face_zones = next("faceZones");
+  if (!bytes.empty()) files.cell_zones = next("cellZones");
+  reads([&] {
+    const io::Mesh_file file = io::parse_poly_mesh(files);
+    const auto& soup = std::get<Cell_soup<3>>(file.mesh);
+    demand_well_formed(soup);
+    for (const auto& [name, group] : file.groups) {
+      demand(!name.empty() && name.find('"') == name.npos, "a name that no group has");
+      demand_below(group.facets, soup.facet_count());
+      demand_below(group.cells, soup.cell_count());
+    }
+  });
 }
 
 }  // namespace cellwalk::fuzz

@@ -27,6 +27,7 @@ void stl(std::string_view bytes);
 void ply(std::string_view bytes);
 void poly(std::string_view bytes);
 void wkt(std::string_view bytes);
+void foam(std::string_view bytes);  ///< the files of an OpenFOAM mesh, parted by lines of %%%%
 
 // What is looked at before a library of others reads a file.
 void msh(std::string_view bytes);

@@ -24,27 +24,12 @@ struct Target {
 };
 
 const std::vector<Target> targets{
-    {"ovm", ovm},
-    {"off", off},
-    {"obj", obj},
-    {"stl", stl},
-    {"ply", ply},
-    {"poly", poly},
-    {"wkt", wkt},
-    {"msh", msh},
-    {"vtk", vtk},
-    {"csv", csv},
-    {"scene", scene},
-    {"record", record},
-    {"trace", trace},
-    {"motion", motion},
-    {"gzip", gzip},
-    {"compiled", compiled},
-    {"forged", forged},
-    {"build", build},
-    {"nonconforming", nonconforming},
-    {"edits", edits},
-    {"moves", moves},
+    {"ovm", ovm},           {"off", off},       {"obj", obj},       {"stl", stl},
+    {"ply", ply},           {"poly", poly},     {"wkt", wkt},       {"msh", msh},
+    {"foam", foam},         {"vtk", vtk},       {"csv", csv},       {"scene", scene},
+    {"record", record},     {"trace", trace},   {"motion", motion}, {"gzip", gzip},
+    {"compiled", compiled}, {"forged", forged}, {"build", build},   {"nonconforming", nonconforming},
+    {"edits", edits},       {"moves", moves},
 #ifdef CELLWALK_FUZZ_MESHING
     {"surface", surface},
 #endif

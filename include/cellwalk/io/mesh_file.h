@@ -38,8 +38,8 @@ struct Mesh_file {
 std::string_view kind_name(const Mesh& mesh);
 
 /// Reads a mesh file of any format that this build supports. The format is determined by the content if
-/// possible, otherwise by the extension. The file may be compressed with gzip. See docs/formats.md for
-/// formats and conventions.
+/// possible, otherwise by the extension. The file may be compressed with gzip. A folder is read as a case or
+/// a mesh of OpenFOAM. See docs/formats.md for formats and conventions.
 ///
 /// A flat file (every z zero) with polygons and no volumes gives 2D cells.
 /// \throw Error(input) if the file is unreadable, broken or of an unknown format; with file and line if

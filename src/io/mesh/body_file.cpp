@@ -16,6 +16,7 @@
 #include "format.h"
 #include "io/files/text.h"
 #include "parse_mesh.h"
+#include "poly_mesh.h"
 #include "surface_parsers.h"
 
 namespace cellwalk::io {
@@ -100,8 +101,7 @@ struct From_mesh {
   }
 };
 
-Content from_mesh(const std::string& name, const std::string& bytes, Format format, Read_report& report) {
-  Mesh_file file = parse_mesh(name, bytes, format);
+Content from_mesh(Mesh_file file, Read_report& report) {
   report = std::move(file.report);
   return std::visit(From_mesh{}, file.mesh);
 }
@@ -132,8 +132,17 @@ Content content_of(const std::string& name, const Recognized_file& file, Read_re
                      "from .csv, {}",
                      supported_formats()));
     default:
-      return from_mesh(name, file.bytes, file.format, report);
+      return from_mesh(parse_mesh(name, file.bytes, file.format), report);
   }
+}
+
+/// \param note receives that of the file's recognition
+template <int D>
+Content content_at(const std::filesystem::path& path, Read_report& report, std::string& note) {
+  if (const auto folder = poly_mesh_folder(path)) return from_mesh(read_poly_mesh(*folder), report);
+  const Recognized_file recognized = recognized_file(path, load_packed(path));
+  note = recognized.note;
+  return content_of<D>(path.string(), recognized, report);
 }
 
 /// The same parts in D dimensions.
@@ -177,16 +186,16 @@ void add_notes(const Made_body<D>& made, bool has_volumes, Read_report& report) 
 template <int D>
 Body_file<D> read_body(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const Recognized_file recognized = recognized_file(path, load_packed(path));
   Body_file<D> file;
-  Content content = content_of<D>(name, recognized, file.report);
+  std::string note;
+  Content content = content_at<D>(path, file.report, note);
   if (content.parts.points.empty()) fail(name, "holds no vertices: a body needs at least one");
   Made_body<D> made = make_body<D>(in_dimension<D>(name, std::move(content.parts)));
   file.report.points = made.body.points.size();
   file.report.cells = 0;
   file.report.facets = made.body.faces.size();
   add_notes(made, content.has_volumes, file.report);
-  if (!recognized.note.empty()) file.report.notes.push_back(recognized.note);
+  if (!note.empty()) file.report.notes.push_back(note);
   file.body = std::move(made.body);
   return file;
 }

@@ -58,6 +58,16 @@ void note_left_out(const std::string& group, std::size_t count, const std::strin
 
 }  // namespace
 
+std::string group_name(std::string name) {
+  constexpr unsigned char first_printed = ' ', delete_character = 0x7f;
+  for (char& c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"') c = '\'';
+    if (byte < first_printed || byte == delete_character) c = '?';
+  }
+  return name.empty() ? "unnamed" : name;
+}
+
 template <int D>
 Soup_groups groups_of_cells(const Cell_soup<D>& cells, const Element_soup& elements, Read_report& report) {
   const auto surfaces = [](const Element_group& group) -> const Corners& {

@@ -3,9 +3,14 @@
 #ifndef CELLWALK_IO_MESH_ELEMENT_GROUPS_H
 #define CELLWALK_IO_MESH_ELEMENT_GROUPS_H
 
+#include <string>
+
 #include "element_soup.h"
 
 namespace cellwalk::io {
+
+/// A name as a group may have it: without quotes and control characters, and not empty.
+std::string group_name(std::string name);
 
 /// The groups of the elements. A polygon (in 2D, a line) of a group stands for the facets with its corners.
 /// The report gets a note for each group of which members are left out: those that are no facets of cells,

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "element_groups.h"
 #include "io/files/text.h"
 
 namespace cellwalk::io {
@@ -19,13 +20,6 @@ std::array<std::uint32_t, N> first_of(std::span<const std::uint32_t> v) {
   std::array<std::uint32_t, N> a;
   std::copy_n(v.begin(), N, a.begin());
   return a;
-}
-
-/// A name as groups may have it: without quotes and control characters.
-std::string allowed(const std::string& name) {
-  std::string result = shown(name);
-  std::replace(result.begin(), result.end(), '"', '\'');
-  return result.empty() ? "unnamed" : result;
 }
 
 }  // namespace
@@ -72,7 +66,7 @@ std::unordered_map<std::int64_t, std::uint32_t> Element_list::positions() const 
 }
 
 void Element_list::add_group(const std::string& name, std::span<const std::uint32_t> elements) {
-  const std::string known = allowed(name);
+  const std::string known = group_name(name);
   if (known != name) notes_.push_back(fmt::format("group \"{}\" named \"{}\"", shown(name), known));
   auto& members = groups_[known];
   members.insert(members.end(), elements.begin(), elements.end());

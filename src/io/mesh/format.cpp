@@ -36,9 +36,10 @@ constexpr std::array<Named, 17> extensions{{{".off", Format::off},
                                             {".csv", Format::csv}}};
 
 /// The first bytes that occur in one format only.
-constexpr std::array<Named, 8> openings{{{"OVM", Format::ovm},
+constexpr std::array<Named, 9> openings{{{"OVM", Format::ovm},
                                          {"$", Format::msh},
                                          {"MeshVersionFormatted", Format::medit},
+                                         {"FoamFile", Format::foam},
                                          {"# vtk DataFile", Format::vtk},
                                          {"<?xml", Format::vtk_xml},
                                          {"<VTKFile", Format::vtk_xml},
@@ -49,6 +50,18 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+std::string_view without_blanks(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  return text;
+}
+
+/// The text after white space and a comment, such as files of OpenFOAM begin with.
+std::string_view without_comment(std::string_view text) {
+  text = without_blanks(text);
+  const std::size_t end = text.starts_with("/*") ? text.find("*/") : std::string_view::npos;
+  return end == std::string_view::npos ? text : without_blanks(text.substr(end + 2));
+}
+
 }  // namespace
 
 std::size_t end_of_off_keyword(std::string_view word) {
@@ -57,9 +70,8 @@ std::size_t end_of_off_keyword(std::string_view word) {
 }
 
 Format format_by_content(std::string_view bytes) {
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return Format::unknown;
-  bytes.remove_prefix(first);
+  bytes = without_comment(bytes);
+  if (bytes.empty()) return Format::unknown;
   for (const auto& [opening, format] : openings)
     if (bytes.size() >= opening.size() && same_word(bytes.substr(0, opening.size()), opening)) return format;
   Line_reader in("", bytes.substr(0, 4096));
@@ -112,6 +124,8 @@ std::string_view format_name(Format format) {
       return "MEDIT";
     case Format::unv:
       return "UNV";
+    case Format::foam:
+      return "OpenFOAM";
     case Format::vtk:
       return "VTK legacy";
     case Format::vtk_xml:

@@ -9,7 +9,7 @@
 
 namespace cellwalk::io {
 
-enum class Format { unknown, off, obj, stl, ply, ovm, poly, wkt, msh, medit, unv, vtk, vtk_xml, csv };
+enum class Format { unknown, off, obj, stl, ply, ovm, poly, wkt, msh, medit, unv, foam, vtk, vtk_xml, csv };
 
 /// The format by the first bytes; unknown if these are inconclusive.
 Format format_by_content(std::string_view bytes);

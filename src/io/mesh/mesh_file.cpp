@@ -15,6 +15,7 @@
 #include "io/files/text.h"
 #include "optional_readers.h"
 #include "parse_mesh.h"
+#include "poly_mesh.h"
 
 namespace cellwalk::io {
 namespace {
@@ -65,6 +66,8 @@ Mesh_file parse_mesh(const std::string& name, const std::string& bytes, Format f
       return elements(name, bytes, parse_medit);
     case Format::unv:
       return elements(name, bytes, parse_unv);
+    case Format::foam:
+      fail(name, "is one file of OpenFOAM: give the folder polyMesh of a mesh, with all its files");
     case Format::vtk:
     case Format::vtk_xml:
       return parse_by_vtk(name, bytes, format);
@@ -81,7 +84,10 @@ std::string_view kind_name(const Mesh& mesh) {
   return names[mesh.index()];
 }
 
-Mesh_file read_mesh(const std::filesystem::path& path) { return read_mesh(path, load_packed(path)); }
+Mesh_file read_mesh(const std::filesystem::path& path) {
+  if (const auto folder = poly_mesh_folder(path)) return read_poly_mesh(*folder);
+  return read_mesh(path, load_packed(path));
+}
 
 Mesh_file read_mesh(const std::filesystem::path& path, std::string bytes) {
   const Recognized_file recognized = recognized_file(path, std::move(bytes));
@@ -96,7 +102,7 @@ std::vector<Build_feature> build_features() {
 }
 
 std::string supported_formats() {
-  std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt, .msh, .mesh, .unv";
+  std::string text = ".ovm, .off, .obj, .stl, .ply, .poly, .wkt, .msh, .mesh, .unv, polyMesh (OpenFOAM)";
   const auto add = [&text](bool is_in, const char* formats, const char* library, const char* purpose) {
     text += is_in ? formats : fmt::format(" (this build lacks {}, which {})", library, purpose);
   };

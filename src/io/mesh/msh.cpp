@@ -41,6 +41,9 @@ class Msh_reader {
       read(section);
     if (!seen_.contains("$Nodes")) elements_.sort_nodes();
     for (const auto& [physical, members] : groups_) elements_.add_group(name_of(physical), members);
+    if (repeated_ > 0)
+      report.notes.push_back(
+          fmt::format("{} elements repeated, once for each of their physical groups: read once", repeated_));
     return elements_.take(lines, report);
   }
 
@@ -145,13 +148,29 @@ class Msh_reader {
       if (!index) in_.fail(fmt::format("element {} names node {}, which does not exist", number, named));
       node = *index;
     }
-    const std::uint32_t position = elements_.add_element(number, kind, nodes_);
+    const std::uint32_t position =
+        is_repeated(kind, physical) ? latest_.position : elements_.add_element(number, kind, nodes_);
+    if (major_ != '4') {
+      latest_.dimension = kind.dimension;
+      latest_.nodes = nodes_;
+      latest_.physical = physical.front();
+      latest_.position = position;
+    }
     for (const Number tag : physical) {
       if (tag == 0) continue;
       groups_[{kind.dimension, std::abs(tag)}].push_back(position);
       if (++members_ > most_members_)
         in_.fail("its elements are in more groups than a mesh of this size has: it is broken");
     }
+  }
+
+  /// Versions 1 and 2 have one group for each element, and Gmsh writes one of several groups several times.
+  bool is_repeated(const Element_kind& kind, std::span<const Number> physical) {
+    const bool is_repeated = major_ != '4' && physical.front() != 0 && latest_.physical != 0 &&
+                             physical.front() != latest_.physical && kind.dimension == latest_.dimension &&
+                             nodes_ == latest_.nodes;
+    repeated_ += is_repeated;
+    return is_repeated;
   }
 
   Element_kind kind_of(Number type) const {
@@ -288,6 +307,14 @@ class Msh_reader {
     return fmt::format("physical {} {}", kinds[static_cast<std::size_t>(physical.first)], physical.second);
   }
 
+  /// The element before.
+  struct Latest {
+    int dimension = 0;
+    std::vector<std::uint32_t> nodes;
+    Number physical = 0;
+    std::uint32_t position = 0;
+  };
+
   Msh_source& in_;
   const Msh_header& header_;
   Element_list elements_;
@@ -295,6 +322,8 @@ class Msh_reader {
   std::size_t members_ = 0, most_members_;  ///< of all groups
   std::set<std::string> seen_;
   std::vector<std::uint32_t> nodes_;
+  Latest latest_;
+  std::size_t repeated_ = 0;
   std::map<Dimension_and_tag, std::string> names_;
   std::map<Dimension_and_tag, std::vector<Number>> physical_of_;    ///< of an entity
   std::map<Dimension_and_tag, std::vector<std::uint32_t>> groups_;  ///< elements of physical groups

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "io/files/text.h"
 #include "surface_parsers.h"
@@ -34,6 +35,9 @@ class Obj_reader {
            fmt::format("a {} names vertex {}, of {}", furthest_->kind, furthest_->vertex + 1,
                        soup_.points.size()));
     if (!ignored_.empty()) report.notes.push_back(note());
+    if (short_faces_ > 0)
+      report.notes.push_back(fmt::format("{} face{} of fewer than 3 vertices left out, the first at line {}",
+                                         short_faces_, short_faces_ > 1 ? "s" : "", first_short_face_));
     return std::move(soup_);
   }
 
@@ -45,9 +49,10 @@ class Obj_reader {
       check_planar(in_, body_, p);
       soup_.points.push_back(p);
     } else if (keyword == "f") {
-      soup_.facets.push_back(corners("face", 3));
+      face();
     } else if (keyword == "l" && body_) {
-      const auto line = corners("line", 2);
+      const auto line = corners("line");
+      if (line.size() < 2) in_.fail(fmt::format("a line of {} vertices: at least 2 are needed", line.size()));
       for (std::size_t i = 1; i < line.size(); ++i) body_->edges.push_back({line[i - 1], line[i]});
     } else if (is_keyword(keyword)) {
       if (!ignored_.contains(keyword)) ignored_.emplace(keyword);
@@ -57,8 +62,18 @@ class Obj_reader {
     }
   }
 
-  /// The rest of the statement, at least `fewest` vertices.
-  std::vector<std::uint32_t> corners(const char* kind, std::size_t fewest) {
+  /// Points and lines that programs write as faces bound nothing.
+  void face() {
+    const std::size_t line = in_.line();
+    std::vector<std::uint32_t> loop = corners("face");
+    if (loop.size() >= 3)
+      soup_.facets.push_back(std::move(loop));
+    else if (short_faces_++ == 0)
+      first_short_face_ = line;
+  }
+
+  /// The vertices in the rest of the statement.
+  std::vector<std::uint32_t> corners(const char* kind) {
     std::vector<std::uint32_t> result;
     while (!in_.at_line_end()) {
       const std::string_view w = in_.word();
@@ -67,8 +82,6 @@ class Obj_reader {
       else
         result.push_back(corner(kind, w));
     }
-    if (result.size() < fewest)
-      in_.fail(fmt::format("a {} of {} vertices: at least {} are needed", kind, result.size(), fewest));
     return result;
   }
 
@@ -111,6 +124,7 @@ class Obj_reader {
   Surface_soup soup_;
   std::set<std::string, std::less<>> ignored_;
   std::optional<Ahead> furthest_;
+  std::size_t short_faces_ = 0, first_short_face_ = 0;  ///< their number, and the line of the first
 };
 
 }  // namespace

@@ -190,8 +190,6 @@ TEST(BodyFile, RefusesWithFileAndLine) {
        "b.obj:5: '0' is not a corner of a line: an index counted from 1, or a negative one"},
       {"b.obj", with(flag_obj, "l 3 4", "l 3 -4"),
        "b.obj:5: corner '-4' of a line names a vertex that does not exist"},
-      {"b.obj", with(flag_obj, "f 1/1 2/2 -3", "f 1 2"),
-       "b.obj:8: a face of 2 vertices: at least 3 are needed"},
       {"b.ply", with(flag_ply, "3 255 2", "3 255 5"), "b.ply:20: edge 0 names vertex 5, of 5"},
       {"b.ply", with(flag_ply, "3 255 2", "3 255 -1"), "b.ply:20: edge 0 names vertex -1"},
       {"b.ply", with(flag_ply, "3 255 2\n", ""),

@@ -69,6 +69,33 @@ TEST(ElementGroups, OfSurfacesAreDroppedWithANote) {
   EXPECT_EQ(file.report.notes.back(), "3 groups ignored: a surface is meshed anew");
 }
 
+TEST(ElementGroups, ElementsOfSeveralGroupsAreReadOnce) {
+  // As Gmsh writes version 2.2: an element once for each of its groups.
+  std::string text = with(version_2, "4 4 2 1 1 1 2 3 4", "4 4 2 1 1 1 2 3 4\n7 4 2 9 1 1 2 3 4");
+  text = with(text, "2 2 2 8 2 3 2 4\n", "2 2 2 8 2 3 2 4\n8 2 2 7 2 3 2 4\n9 2 2 6 2 3 2 4\n");
+  const Mesh_file file = read_mesh("t.msh", with(text, "$Elements\n6", "$Elements\n9"));
+  EXPECT_EQ(std::get<Cell_soup<3>>(file.mesh).cell_count(), 2u);
+  EXPECT_EQ(file.groups.at("blood"), (Soup_group{{}, {0}}));
+  EXPECT_EQ(file.groups.at("physical volume 9"), (Soup_group{{}, {0}}));
+  EXPECT_EQ(file.groups.at("physical surface 6"), file.groups.at("middle"));
+  EXPECT_EQ(file.groups.at("inlet of A").facets.size(), 3u);
+  EXPECT_EQ(file.report.notes.front(),
+            "3 elements repeated, once for each of their physical groups: read once");
+  // Those of one group, or of none, are elements of their own.
+  for (const char* tag : {"1", "0"}) {
+    const std::string twice =
+        with(version_2, "4 4 2 1 1 1 2 3 4", std::string("4 4 2 1 1 1 2 3 4\n7 4 2 ") + tag + " 1 1 2 3 4");
+    const Mesh_file all = read_mesh("t.msh", with(twice, "$Elements\n6", "$Elements\n7"));
+    EXPECT_EQ(std::get<Cell_soup<3>>(all.mesh).cell_count(), 3u);
+  }
+}
+
+TEST(ElementGroups, LongNamesAreKept) {
+  const std::string name = "a name of a group that has more than forty characters, with a part of its own";
+  const Mesh_file file = read_mesh("t.msh", with(version_2, "\"blood\"", '"' + name + '"'));
+  EXPECT_EQ(file.groups.count(name), 1u);
+}
+
 TEST(ElementGroups, NamesThatNoGroupCanHaveAreChanged) {
   const Mesh_file file = read_mesh("t.msh", with(version_2, "\"blood\"", "\"red \"x\" blood\""));
   EXPECT_EQ(file.groups.count("red 'x' blood"), 1u);

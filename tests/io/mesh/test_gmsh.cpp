@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "io/io_fixture.h"
 #include "volumes.h"
@@ -75,6 +76,72 @@ TEST(Gmsh, TextOfEveryVersionIsRead) {
 TEST(Gmsh, BinaryOfEveryVersionIsRead) {
   expect_the_cells(read("t.msh", written_by_gmsh(".msh", 2.2, true)), "Gmsh 2.2 (binary)", Order::any);
   expect_the_cells(read("t.msh", written_by_gmsh(".msh", 4.1, true)), "Gmsh 4.1 (binary)");
+}
+
+/// A box of which the faces x = 0 and x = 1 are in two groups and one of them, and the volume in two; or its
+/// base alone, with the curve y = 0. As Gmsh writes it.
+std::string box_with_groups(int dimension, double version, bool binary) {
+  const Folder folder;
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  using Entities = std::vector<std::pair<int, int>>;
+  if (dimension == 3)
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+  else
+    gmsh::model::occ::addRectangle(0, 0, 0, 1, 1);
+  gmsh::model::occ::synchronize();
+  const auto at = [dimension](double x, double y, double z, double dx, double dy, double dz) {
+    Entities found;
+    gmsh::model::getEntitiesInBoundingBox(x - .1, y - .1, z - .1, x + dx + .1, y + dy + .1, z + dz + .1,
+                                          found, dimension - 1);
+    return found.at(0).second;
+  };
+  const double depth = dimension == 3 ? 1 : 0;
+  const int low = at(0, 0, 0, 0, 1, depth), high = at(1, 0, 0, 0, 1, depth);
+  const auto group = [](int of, const std::vector<int>& tags, const std::string& name) {
+    gmsh::model::setPhysicalName(of, gmsh::model::addPhysicalGroup(of, tags), name);
+  };
+  group(dimension, {1}, "blood");
+  group(dimension, {1}, "all that is within the walls, a name of many letters");
+  group(dimension - 1, {low, high}, "ends");
+  group(dimension - 1, {low}, "inlet");
+  gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+  gmsh::model::mesh::generate(dimension);
+  gmsh::option::setNumber("Mesh.MshFileVersion", version);
+  gmsh::option::setNumber("Mesh.Binary", binary);
+  gmsh::write((folder / "out.msh").string());
+  gmsh::finalize();
+  return content_of(folder / "out.msh");
+}
+
+template <int D>
+void expect_groups(const Mesh_file& file) {
+  const auto& soup = std::get<Cell_soup<D>>(file.mesh);
+  std::vector<std::uint32_t> all(soup.cell_count());
+  std::iota(all.begin(), all.end(), 0u);
+  ASSERT_EQ(file.groups.size(), 4u);
+  EXPECT_EQ(file.groups.at("blood").cells, all);
+  EXPECT_EQ(file.groups.at("all that is within the walls, a name of many letters").cells, all);
+  std::vector<std::uint32_t> low, ends;
+  for (std::uint32_t f = 0; f < soup.facet_count(); ++f)
+    for (const double x : {0., 1.}) {
+      const auto loop = soup.facet(f);
+      if (!std::ranges::all_of(loop, [&](std::uint32_t v) { return soup.points[v][0] == x; })) continue;
+      ends.push_back(f);
+      if (x == 0) low.push_back(f);
+    }
+  EXPECT_GE(low.size(), 2u);
+  EXPECT_EQ(file.groups.at("inlet").facets, low);
+  EXPECT_EQ(file.groups.at("ends").facets, ends);
+}
+
+TEST(Gmsh, PhysicalGroupsComeThrough) {
+  for (const double version : {2.2, 4.1})
+    for (const bool binary : {false, true}) {
+      SCOPED_TRACE(testing::Message() << version << (binary ? " binary" : ""));
+      expect_groups<3>(read("t.msh", box_with_groups(3, version, binary)));
+      expect_groups<2>(read("t.msh", box_with_groups(2, version, binary)));
+    }
 }
 
 TEST(Gmsh, MeditIsRead) {

@@ -144,7 +144,6 @@ TEST(Surface, ObjIsRefusedWithFileAndLine) {
       {"f 2 3 4", "f 2 3 0",
        "t:8: '0' is not a corner of a face: an index counted from 1, or a negative one"},
       {"f 2 3 4", "f 2 3 -5", "t:8: corner '-5' of a face names a vertex that does not exist"},
-      {"f 2 3 4", "f 2 3", "t:8: a face of 2 vertices: at least 3 are needed"},
       {"f 2 3 4", "f 2 3 x",
        "t:8: 'x' is not a corner of a face: an index counted from 1, or a negative one"},
       {"v 1 0 0", "v 1 0", "t:3: a coordinate is missing"},
@@ -153,6 +152,21 @@ TEST(Surface, ObjIsRefusedWithFileAndLine) {
     SCOPED_TRACE(c.to);
     EXPECT_EQ(refusal([&] { parse(with(obj_text, c.from, c.to), Surface_format::obj); }), c.message);
   }
+}
+
+TEST(Surface, FacesOfObjWithFewerThanThreeVerticesAreLeftOut) {
+  Read_report report;
+  expect_tetrahedron(
+      parse(with(obj_text, "f 2 3 4", "f 2 \\\n 3\nf 2 3 4\nf\nf 1"), Surface_format::obj, &report));
+  EXPECT_EQ(report.notes,
+            (std::vector<std::string>{"3 faces of fewer than 3 vertices left out, the first at line 8"}));
+  expect_tetrahedron(parse(with(obj_text, "f 2 3 4", "f 2 3 4\nf 2 3"), Surface_format::obj, &report));
+  EXPECT_EQ(report.notes,
+            (std::vector<std::string>{"1 face of fewer than 3 vertices left out, the first at line 9"}));
+  EXPECT_EQ(refusal([] { parse(with(obj_text, "f 2 3 4", "f 2 9"), Surface_format::obj); }),
+            "t:8: a face names vertex 9, of 4");
+  EXPECT_EQ(refusal([] { parse("v 0 0 0\nv 1 0 0\nf 1 2\n", Surface_format::obj); }),
+            "t: holds no polygons: a surface is needed");
 }
 
 TEST(Surface, StlIsReadAsTextAndBinary) {
