@@ -68,6 +68,18 @@ bool Rod<D>::is_held() const {
   return inside_ - along(0) > most_compressed * catheter_.spacing;
 }
 
+/// The tip has as far to go to the next waypoint as it is from it.
+template <int D>
+double Rod<D>::travelled() const {
+  if (has_arrived()) return 1;
+  double all = 0, next = 0;
+  for (std::size_t i = 1; i < waypoints_.size(); ++i) {
+    all += length(waypoints_[i] - waypoints_[i - 1]);
+    if (i == next_) next = all;
+  }
+  return std::max(0.0, next - length(waypoints_[next_] - tip())) / all;
+}
+
 template <int D>
 bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
   body_.refresh(counts);
@@ -141,11 +153,10 @@ void Rod<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report,
   const detail::Rod_state<D> before = state();
   const double twist_before = twist_ * radians;
   aim();
-  const double longest = catheter_.spacing * static_cast<double>(body_.vertex_count() - 1);
   if (is_held())
     ++waited_;
   else if (!has_arrived() || catheter_.steering == Steering::none)
-    inside_ = std::min(longest, inside_ + catheter_.advance);
+    inside_ = std::min(full_length(), inside_ + catheter_.advance);
   const auto x = body_.positions();
   targets_.assign(x.begin(), x.end());
   detail::push_along<D>(state(), heading_, fastest * catheter_.advance, targets_);

@@ -63,6 +63,12 @@ class Rod {
   std::span<const Point<D>> waypoints() const { return waypoints_; }
   /// The waypoint that the tip aims at; way().size() once it has arrived.
   std::size_t next_waypoint() const { return next_; }
+  /// The share of the path that lies behind the tip; 1 once it has arrived.
+  double travelled() const;
+  /// True if walls hold the base back now.
+  bool is_held() const;
+  /// True if all of it has been pushed in.
+  bool is_all_inside() const { return inside_ >= full_length(); }
   /// The number of steps in which the base was held back.
   std::uint32_t steps_waited() const { return waited_; }
   /// Always zero: the rod has no inertia.
@@ -70,7 +76,7 @@ class Rod {
   bool has_arrived() const { return next_ == waypoints_.size(); }
 
  private:
-  bool is_held() const;
+  double full_length() const { return catheter_.spacing * static_cast<double>(body_.vertex_count() - 1); }
   bool sees(const Point<D>& x, Body_counts& counts);
   void pass_waypoints(Body_counts& counts);
   void aim();
