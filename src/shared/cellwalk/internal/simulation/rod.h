@@ -56,6 +56,8 @@ class Rod {
   /// The targets of the vertices in the last step.
   std::span<const Point<D>> targets() const { return targets_; }
   const Point<D>& tip() const { return body_.positions()[0]; }
+  /// The distance between neighbours.
+  double spacing() const { return catheter_.spacing; }
   /// The length that has been pushed in.
   double length_inside() const { return inside_; }
   /// The total rotation of the base, in degrees.
