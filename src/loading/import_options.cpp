@@ -88,7 +88,7 @@ Import_options import_options(const Import_call& call) {
   options.obstacles = call.obstacles;
   for (const auto& [name, value] : call.options) {
     const auto* option =
-        std::ranges::find_if(named_options, [&](const Named_option& o) { return o.name == name; });
+        std::ranges::find_if(named_options, [&key = name](const Named_option& o) { return o.name == key; });
     if (option == std::end(named_options)) {
       std::vector<std::string> known{"import", "obstacle"};
       for (const Named_option& o : named_options) known.emplace_back(o.name);

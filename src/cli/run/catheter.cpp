@@ -17,14 +17,14 @@ namespace {
 /// Why a catheter did not arrive: a word, and a sentence.
 struct Reason {
   const char* word;
-  const char* text;
+  std::string text;
 };
 
 template <int D>
 Reason why_short(const Rod<D>& rod) {
   if (rod.is_held()) return {"walls", "walls hold it back"};
   if (rod.is_all_inside()) return {"length", "all of it is inside: it needs more particles"};
-  return {"steps", "the steps were over: it needs more of them"};
+  return {"steps", fmt::format("the steps were over: it needs about {} more", rod.steps_left())};
 }
 
 }  // namespace

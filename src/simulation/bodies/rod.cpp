@@ -68,16 +68,28 @@ bool Rod<D>::is_held() const {
   return inside_ - along(0) > most_compressed * catheter_.spacing;
 }
 
-/// The tip has as far to go to the next waypoint as it is from it.
+/// The length of the path, and what is left of it: the tip has as far to go to the next waypoint as it is from
+/// it.
+template <int D>
+std::pair<double, double> Rod<D>::whole_and_left() const {
+  double whole = 0, left = has_arrived() ? 0 : length(waypoints_[next_] - tip());
+  for (std::size_t i = 1; i < waypoints_.size(); ++i) {
+    const double piece = length(waypoints_[i] - waypoints_[i - 1]);
+    whole += piece;
+    if (i > next_) left += piece;
+  }
+  return {whole, left};
+}
+
 template <int D>
 double Rod<D>::travelled() const {
-  if (has_arrived()) return 1;
-  double all = 0, next = 0;
-  for (std::size_t i = 1; i < waypoints_.size(); ++i) {
-    all += length(waypoints_[i] - waypoints_[i - 1]);
-    if (i == next_) next = all;
-  }
-  return std::max(0.0, next - length(waypoints_[next_] - tip())) / all;
+  const auto [whole, left] = whole_and_left();
+  return std::max(0.0, 1 - left / whole);
+}
+
+template <int D>
+std::size_t Rod<D>::steps_left() const {
+  return static_cast<std::size_t>(std::ceil(whole_and_left().second / catheter_.advance));
 }
 
 template <int D>

@@ -71,13 +71,13 @@ TEST_F(CentreLineRun, ArrivesByTwoKeys) {
       << said;
   EXPECT_TRUE(contains(said, "read: scenes/meshes/duct.ovm: ")) << said;
   EXPECT_TRUE(contains(said, ", arrived at the last of ")) << said;
-  const json rod = report("out")["catheter"];
-  EXPECT_TRUE(rod["arrived"]);
-  EXPECT_EQ(rod["travelled"], 1);
-  EXPECT_FALSE(rod.contains("held_by"));
-  EXPECT_NEAR(rod["tip"][0], 12, 1);
-  ASSERT_GE(rod["path"].size(), 12u);
-  for (const json& place : rod["path"]) {
+  const json pushed = report("out")["catheter"];
+  EXPECT_TRUE(pushed["arrived"]);
+  EXPECT_EQ(pushed["travelled"], 1);
+  EXPECT_FALSE(pushed.contains("held_by"));
+  EXPECT_NEAR(pushed["tip"][0], 12, 1);
+  ASSERT_GE(pushed["path"].size(), 12u);
+  for (const json& place : pushed["path"]) {
     EXPECT_NEAR(place[1], 0, 0.05) << "beside the axis";
     EXPECT_NEAR(place[2], 0, 0.05);
   }
@@ -91,26 +91,27 @@ TEST_F(CentreLineRun, ArrivesByTwoKeys) {
 }
 
 TEST_F(CentreLineRun, SaysHowFarItCame) {
-  succeed({"run", "scenes/s.json", "-o", "few", "--steps", "15"});
-  json rod = report("few")["catheter"];
-  EXPECT_FALSE(rod["arrived"]);
-  EXPECT_EQ(rod["held_by"], "steps");
-  EXPECT_NEAR(rod["travelled"], 15 * 0.25 / 12, 0.05);
+  const std::string few = succeed({"run", "scenes/s.json", "-o", "few", "--steps", "15"});
+  EXPECT_TRUE(contains(few, "; the steps were over: it needs about 33 more")) << few;
+  json pushed = report("few")["catheter"];
+  EXPECT_FALSE(pushed["arrived"]);
+  EXPECT_EQ(pushed["held_by"], "steps");
+  EXPECT_NEAR(pushed["travelled"], 15 * 0.25 / 12, 0.05);
   const std::string said = succeed({"run", "scenes/s.json", "-o", "short", "--set", "catheter.particles=9"});
   EXPECT_TRUE(contains(said, " % of the path, at (")) << said;
   EXPECT_TRUE(contains(said, "; all of it is inside: it needs more particles")) << said;
-  rod = report("short")["catheter"];
-  EXPECT_EQ(rod["held_by"], "length");
-  EXPECT_NEAR(rod["travelled"], 8 * 0.5 / 12, 0.05);
+  pushed = report("short")["catheter"];
+  EXPECT_EQ(pushed["held_by"], "length");
+  EXPECT_NEAR(pushed["travelled"], 8 * 0.5 / 12, 0.05);
 }
 
 TEST_F(CentreLineRun, TakesPointsAndGroupsOfTheScene) {
   succeed({"run", "scenes/s.json", "-o", "back", "--set", "catheter.from=[11, 0.5, 0.5]", "--set",
            R"(groups={"near": {"ball": [[1.5, 0, 0], 0.6]}})", "--set", "catheter.to=near"});
-  const json rod = report("back")["catheter"];
-  EXPECT_TRUE(rod["arrived"]);
-  EXPECT_EQ(rod["path"][0], json({11, 0.5, 0.5}));
-  EXPECT_NEAR(rod["tip"][0], 1.5, 1);
+  const json pushed = report("back")["catheter"];
+  EXPECT_TRUE(pushed["arrived"]);
+  EXPECT_EQ(pushed["path"][0], json({11, 0.5, 0.5}));
+  EXPECT_NEAR(pushed["tip"][0], 1.5, 1);
 }
 
 TEST_F(CentreLineRun, ReplacesCellsOnlyWithAMap) {

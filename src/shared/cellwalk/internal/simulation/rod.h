@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cellwalk {
@@ -67,6 +68,8 @@ class Rod {
   std::size_t next_waypoint() const { return next_; }
   /// The share of the path that lies behind the tip; 1 once it has arrived.
   double travelled() const;
+  /// The number of steps that the rest of the path takes if nothing holds the base back.
+  std::size_t steps_left() const;
   /// True if walls hold the base back now.
   bool is_held() const;
   /// True if all of it has been pushed in.
@@ -78,6 +81,7 @@ class Rod {
   bool has_arrived() const { return next_ == waypoints_.size(); }
 
  private:
+  std::pair<double, double> whole_and_left() const;
   double full_length() const { return catheter_.spacing * static_cast<double>(body_.vertex_count() - 1); }
   bool sees(const Point<D>& x, Body_counts& counts);
   void pass_waypoints(Body_counts& counts);
