@@ -68,8 +68,8 @@ bool Rod<D>::is_held() const {
   return inside_ - along(0) > most_compressed * catheter_.spacing;
 }
 
-/// The length of the path, and what is left of it: the tip has as far to go to the next waypoint as it is from
-/// it.
+/// The length of the path, and what is left of it: to the next waypoint, the tip has to go as far as it is
+/// from it.
 template <int D>
 std::pair<double, double> Rod<D>::whole_and_left() const {
   double whole = 0, left = has_arrived() ? 0 : length(waypoints_[next_] - tip());
