@@ -120,6 +120,16 @@ test('a page without walls, bodies and contacts would be seen to be empty', asyn
   await page.close();
 });
 
+test('the path of a catheter is a line of its colour', async () => {
+  const pathColour = 0xff0677d9;  // as the canvas has it: alpha, blue, green, red
+  for (const [name, least, most] of [['plane', 20, Infinity], ['space', 0, 0]]) {
+    const page = await open(`${name}.html`), start = await look(page);
+    const count = await page.evaluate(([i, colour]) => window.looks[i].reduce((sum, pixel) => sum + (pixel === colour), 0), [start, pathColour]);
+    assert.ok(count >= least && count <= most, `${name}: ${count} pixels`);
+    await page.close();
+  }
+});
+
 test('colours and switches change the picture', async () => {
   for (const name of ['space', 'plane']) {
     const page = await open(`${name}.html`);

@@ -4,6 +4,7 @@ import { makeBodies } from './bodies.js';
 import { makeContacts } from './contacts.js';
 import { parseContacts, parseMotion, unpacked } from './motion.js';
 import { Panel } from './panel.js';
+import { makePath } from './path.js';
 import { Stage } from './stage.js';
 import { Timeline } from './timeline.js';
 import { makeWalls } from './walls.js';
@@ -21,6 +22,8 @@ async function start() {
   stage.add(walls.group, walls.lines);
   stage.add(bodies.group, bodies.lines);
   stage.add(seen.group, [seen.normals]);
+  const path = makePath(report.catheter?.path);
+  stage.add(path.object, [path]);
 
   const show = record => {
     const step = motion.stepOf(record);

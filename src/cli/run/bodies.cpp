@@ -71,23 +71,6 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
   return sizes;
 }
 
-template <int D>
-ordered_json catheter_json(const Rod<D>& rod) {
-  return {{"arrived", rod.has_arrived()}, {"waypoint", rod.next_waypoint()},
-          {"path", rod.waypoints()},      {"length_inside", rod.length_inside()},
-          {"twist", rod.twist()},         {"steps_waited", rod.steps_waited()}};
-}
-
-template <int D>
-std::string describe_catheter(const Rod<D>& rod) {
-  const std::string where =
-      rod.has_arrived()
-          ? fmt::format("arrived at the last of {} waypoints", rod.waypoints().size())
-          : fmt::format("on its way to waypoint {} of {}", rod.next_waypoint() + 1, rod.waypoints().size());
-  return fmt::format("{} vertices, {:.4g} long inside, {}", rod.body().vertex_count(), rod.length_inside(),
-                     where);
-}
-
 ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts& contacts,
                          const std::vector<std::string>& notes) {
   ordered_json result{
@@ -139,9 +122,5 @@ template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&);
 template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);
 template Body_sizes sizes_of(const World<2>&, const Scene<2>&);
 template Body_sizes sizes_of(const World<3>&, const Scene<3>&);
-template ordered_json catheter_json(const Rod<2>&);
-template ordered_json catheter_json(const Rod<3>&);
-template std::string describe_catheter(const Rod<2>&);
-template std::string describe_catheter(const Rod<3>&);
 
 }  // namespace cellwalk::cli

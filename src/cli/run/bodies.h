@@ -40,15 +40,10 @@ nlohmann::ordered_json bodies_json(const Body_sizes& sizes, const Body_contacts&
                                    const std::vector<std::string>& notes);
 /// The share of edge checks that each certificate decided.
 nlohmann::ordered_json shares_json(const Edge_counts& counts);
-/// Where the catheter is.
-template <int D>
-nlohmann::ordered_json catheter_json(const Rod<D>& rod);
 /// Counts, and the share of vertex moves and edge checks that each certificate decided.
 nlohmann::ordered_json to_json(const Body_counts& counts);
 
 /// For people: contacts by feature, and the ways in which moves of vertices and checks of edges were decided.
-template <int D>
-std::string describe_catheter(const Rod<D>& rod);
 std::string describe_contacts(const Body_contacts& contacts);
 std::string describe_moves(const Body_counts& counts);
 std::string describe_edges(const Edge_counts& e);
@@ -57,10 +52,6 @@ extern template Scene_bodies<2> load_bodies(const Scene<2>&, const std::string&)
 extern template Scene_bodies<3> load_bodies(const Scene<3>&, const std::string&);
 extern template Body_sizes sizes_of(const World<2>&, const Scene<2>&);
 extern template Body_sizes sizes_of(const World<3>&, const Scene<3>&);
-extern template nlohmann::ordered_json catheter_json(const Rod<2>&);
-extern template nlohmann::ordered_json catheter_json(const Rod<3>&);
-extern template std::string describe_catheter(const Rod<2>&);
-extern template std::string describe_catheter(const Rod<3>&);
 
 }  // namespace cellwalk::cli
 

@@ -28,7 +28,8 @@ constexpr const char* environment_name = "environment.cellwalk";
 
 }  // namespace
 
-Run_settings::Run_settings(const Run_options& options, std::vector<std::string> notes_of_bodies)
+Run_settings::Run_settings(const Run_options& options, std::vector<std::string> notes_of_bodies,
+                           std::vector<std::string> lines_of_import)
     : scene(options.scene),
       scene_text(options.scene_text),
       record(options.record),
@@ -37,7 +38,8 @@ Run_settings::Run_settings(const Run_options& options, std::vector<std::string> 
       every(options.checkpoint_every),
       replaced(options.force ? Output_folder::place_of(options.folder).filename().string() : ""),
       sweep(options.body.sweep.sweep),
-      notes(std::move(notes_of_bodies)) {}
+      notes(std::move(notes_of_bodies)),
+      import_lines(std::move(lines_of_import)) {}
 
 namespace {
 

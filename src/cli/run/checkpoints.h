@@ -29,14 +29,16 @@ struct Run_settings {
   std::uint32_t steps = 0, every = 0;
   std::string replaced;  ///< the name of the folder that --force replaces, without its place; empty: none
   Sweep sweep = Sweep::triangle;
-  std::vector<std::string> notes;  ///< on the files of bodies
+  std::vector<std::string> notes;         ///< on the files of bodies
+  std::vector<std::string> import_lines;  ///< on the import of the environment
 
   explicit Run_settings() = default;
-  Run_settings(const Run_options& options, std::vector<std::string> notes);
+  Run_settings(const Run_options& options, std::vector<std::string> notes,
+               std::vector<std::string> import_lines);
 
   template <class Archive>
   void archive(Archive& a) {
-    a(scene, scene_text, record, json, steps, every, replaced, sweep, notes);
+    a(scene, scene_text, record, json, steps, every, replaced, sweep, notes, import_lines);
   }
 };
 

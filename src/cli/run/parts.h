@@ -34,8 +34,9 @@ struct Run_input {
   const Scene<D>& scene;
   const Run_options& options;
   Environment<D>& environment;
-  const Certificate& certificate;         ///< of the environment at the start
-  const std::vector<std::string>& notes;  ///< on the files of bodies
+  const Certificate& certificate;           ///< of the environment at the start
+  const std::vector<std::string>& notes;    ///< on the files of bodies
+  std::vector<std::string> import_lines{};  ///< on the import of the environment
 
   std::uint32_t steps() const { return options.steps > 0 ? options.steps : scene.steps; }
 };

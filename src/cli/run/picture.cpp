@@ -135,7 +135,7 @@ typename Run_picture<D>::Marks Run_picture<D>::thinned(const Marks& marks) const
 }
 
 template <int D>
-Drawing Run_picture<D>::draw(const World<D>& world, const Scene<D>& scene, std::string caption) const {
+Drawing Run_picture<D>::draw(const World<D>& world, std::string caption) const {
   Drawing drawing;
   const Scene_materials m = add_materials(drawing, D == 2);
   const double unit = diagonal_of(*snapshot_);
@@ -164,7 +164,7 @@ Drawing Run_picture<D>::draw(const World<D>& world, const Scene<D>& scene, std::
   }
   draw_bodies(drawing, world, m, share, unit, layer(4));
   if (!catheter.empty()) {
-    const double size = std::min(catheter_size * unit, 0.3 * scene.catheter->spacing);
+    const double size = std::min(catheter_size * unit, 0.3 * world.catheter()->spacing());
     draw_line(drawing, smooth<D>(catheter), size, layer(4), m.catheter);
     draw_dot(drawing, catheter.front(), 1.6 * size, layer(5), m.catheter);
   }

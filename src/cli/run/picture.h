@@ -31,7 +31,7 @@ class Run_picture {
 
   /// Where there is more to draw than the bound allows, round shapes get fewer sides, and then a share of
   /// them is drawn; the caption contains this share.
-  drawing::Drawing draw(const World<D>& world, const Scene<D>& scene, std::string caption) const;
+  drawing::Drawing draw(const World<D>& world, std::string caption) const;
 
   template <class Archive>
   void archive(Archive& a) {

@@ -9,13 +9,15 @@
 #include <cellwalk/loading/environment_file.h>
 
 #include <string>
+#include <vector>
 
 namespace cellwalk::cli {
 
 struct Prepared_environment {
   Any_environment environment;
   Certificate certificate;
-  Any_groups groups{};  ///< that its file names
+  Any_groups groups{};               ///< that its file names
+  std::vector<std::string> lines{};  ///< on an import
 };
 
 /// True if walls or changes of the scene replace cells, or open and close facets.
@@ -28,10 +30,10 @@ bool changes_environment(const Scene<D>& scene) {
   return scene.walls || !scene.changes.list.empty();
 }
 
-/// Reads or generates it.
+/// Reads, generates or imports it.
 /// \param scene_name for errors
 /// \param ranks that need it, too: it is made once on each node
-/// \throw Error as load_environment(); Error(input) for a recipe that is none
+/// \throw Error as load_environment() and import_or_reopen(); Error(input) for a recipe that is none
 template <int D>
 Prepared_environment prepare(const Scene<D>& scene, const std::string& scene_name, Ranks& ranks);
 

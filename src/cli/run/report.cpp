@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "bodies.h"
+#include "catheter.h"
 #include "cli/common/contact_kind_names.h"
 #include "cli/common/counts_json.h"
 #include "cli/common/environment_file.h"
@@ -80,6 +81,8 @@ std::string summary(const Run_input<D>& input, const Run_parts<D>& parts, const 
   };
   const auto& contacts = files.contacts();
   line("environment", fmt::format("{} cells, {} walls, certified", certificate.cells, certificate.walls));
+  for (std::size_t i = 0; i < input.import_lines.size(); ++i)
+    line(i == 0 ? "imported" : "", input.import_lines[i]);
   if (!world.particles().empty()) line("particles", fmt::format("{} free", world.particles().size()));
   const Body_sizes sizes = sizes_of(world, input.scene);
   if (sizes.bodies > 0)

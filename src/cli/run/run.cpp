@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bodies.h"
+#include "catheter.h"
 #include "checkpoints.h"
 #include "cli/common/command.h"
 #include "cli/common/contact_kind_names.h"
@@ -57,8 +58,7 @@ std::string draw(const Run_input<D>& input, const Run_parts<D>& parts, const std
   if (D == 2) how.camera = {{0, 0, 1}, {0, 1, 0}, 0};
   std::string png;
   try {
-    png = drawing::encode_png(
-        drawing::render(parts.picture->draw(parts.world, input.scene, caption(input, parts)), how));
+    png = drawing::encode_png(drawing::render(parts.picture->draw(parts.world, caption(input, parts)), how));
   } catch (const std::bad_alloc&) {
     return "out of memory";
   } catch (const Error& error) {
@@ -139,7 +139,8 @@ void run_kept(const Run_input<D>& input, World<D>&& world, const Groups<D>& grou
   std::optional<Interruption> interruption(std::in_place);
   working.begin();
   Run_parts<D> parts(input, place, std::move(world), groups, outputs.record != nullptr);
-  Run_checkpoints<D> checkpoints(working.checkpoints(), place, Run_settings(input.options, bodies.notes),
+  Run_checkpoints<D> checkpoints(working.checkpoints(), place,
+                                 Run_settings(input.options, bodies.notes, input.import_lines),
                                  changes_environment(input.scene));
   run_steps(input, parts, checkpoints, working, *interruption);
   interruption.reset();
@@ -162,9 +163,14 @@ void help(const Run_input<D>& input, const std::vector<Body_soup<D>>& shapes, Ra
 
 /// \param outputs null on ranks that are not the first
 template <int D>
-void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, const Scene<D>& scene) {
+void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, const Scene<D>& given) {
+  Scene<D> scene = given;
   if (outputs != nullptr) {
     if (const auto* file = std::get_if<std::string>(&scene.environment)) outputs->all.also_reads(*file);
+    if (const auto* call = std::get_if<Import_call>(&scene.environment)) {
+      outputs->all.also_reads(call->file);
+      for (const std::string& file : call->obstacles) outputs->all.also_reads(file);
+    }
     for (const auto& body : scene.bodies)
       if (const auto* file = std::get_if<std::string>(&body.source)) outputs->all.also_reads(*file);
   }
@@ -187,7 +193,9 @@ void run_scene(const Run_options& options, Ranks& all, Run_outputs* outputs, con
                             options.scene, 5 - D, D));
   const auto* const known = std::get_if<Groups<D>>(&prepared.groups);  // none are generated
   const Groups<D> groups = known ? *known : Groups<D>{};
-  const Run_input<D> input{scene, options, *environment, prepared.certificate, bodies.notes};
+  lay_catheter(scene, options.scene, environment->snapshot(), groups);
+  const Run_input<D> input{
+      scene, options, *environment, prepared.certificate, bodies.notes, std::move(prepared.lines)};
   if (outputs == nullptr) return help(input, bodies.shapes, ranks);
   World<D> world = make_world(input, bodies.shapes);
   if (outputs->working != nullptr) return run_kept(input, std::move(world), groups, bodies, *outputs);
@@ -207,8 +215,12 @@ void resume_scene(const Run_options& options, Run_outputs& outputs, const Scene<
   Compiled_environment<D> environment = take_environment<D>(folder, kept.rest, history);
   if (needs_map(scene)) environment.environment.thaw();
   detail::follow_history(environment.environment, history);
-  const Run_input<D> input{scene, options, environment.environment, environment.certificate,
-                           kept.settings.notes};
+  const Run_input<D> input{scene,
+                           options,
+                           environment.environment,
+                           environment.certificate,
+                           kept.settings.notes,
+                           kept.settings.import_lines};
   Result_files place(outputs.working->results(), folder, kept.lengths);
   Run_parts<D> parts(input, place, !kept.settings.record.empty(), kept.rest);
   Run_settings settings = kept.settings;

@@ -122,7 +122,9 @@ Environment_changes<D> changes(const Json_node& node, std::uint64_t most_steps) 
     }
   if (const auto list = node.find("changes"))
     for (const Json_node& entry : list->elements()) result.list.push_back(change<D>(entry, most_steps));
-  if (!result.groups.empty() && result.list.empty())
+  const auto catheter = node.find("catheter");
+  const bool has_ends = catheter && (catheter->has("from") || catheter->has("to"));
+  if (!result.groups.empty() && result.list.empty() && !has_ends)
     node.at("groups").fail("no change names a group: give \"changes\" as well");
   return result;
 }

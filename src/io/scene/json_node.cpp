@@ -61,6 +61,8 @@ void Json_node::fail(const std::string& what) const {
   io::fail(*file_, path_.empty() ? what : path_ + ": " + what);
 }
 
+bool Json_node::is_boolean() const { return value_->is_boolean(); }
+
 bool Json_node::is_string() const { return value_->is_string(); }
 bool Json_node::is_object() const { return value_->is_object(); }
 bool Json_node::is_array() const { return value_->is_array(); }

@@ -31,6 +31,7 @@ class Json_node {
 
   [[noreturn]] void fail(const std::string& what) const;
 
+  bool is_boolean() const;
   bool is_string() const;
   bool is_object() const;
   bool is_array() const;

@@ -21,12 +21,41 @@ constexpr std::uint64_t most_sweeps = 1000;
 constexpr std::uint64_t most_rings = 100, most_operations = 1'000'000;
 constexpr double most_tension = 0.9, most_compliance = 1e6;
 
-Environment_source environment_source(const Json_node& node) {
-  if (node.is_string()) {
-    if (node.string().empty()) node.fail("expected the name of a mesh file");
-    return node.string();
+std::string file_name(const Json_node& node) {
+  if (node.string().empty()) node.fail("expected the name of a mesh file");
+  return node.string();
+}
+
+/// Which options there are, and their values, are for those who import.
+Import_call::Value import_value(const Json_node& node) {
+  if (node.is_boolean()) return node.boolean();
+  if (node.is_string()) return node.string();
+  if (node.is_array()) return node.numbers();
+  return node.number();
+}
+
+Import_call import_call(const Json_node& node) {
+  Import_call result;
+  result.cache = ".cellwalk-cache";
+  for (const std::string& key : node.keys()) {
+    const Json_node value = node.at(key);
+    if (key == "import") {
+      result.file = file_name(value);
+    } else if (key == "obstacle") {
+      for (const Json_node& file : value.is_array() ? value.elements() : std::vector<Json_node>{value})
+        result.obstacles.push_back(file_name(file));
+    } else {
+      result.options[key] = import_value(value);
+    }
   }
-  if (!node.is_object()) node.fail("expected the name of a mesh file or {\"generate\": ...}");
+  return result;
+}
+
+Environment_source environment_source(const Json_node& node) {
+  if (node.is_string()) return file_name(node);
+  if (!node.is_object())
+    node.fail("expected the name of a mesh file, {\"import\": ...} or {\"generate\": ...}");
+  if (node.has("import")) return import_call(node);
   Generator_call generator_call;
   generator_call.generator = node.at("generate").string();
   for (const std::string& key : node.keys())
@@ -75,11 +104,30 @@ void curve(const Json_node& node, Catheter<D>& result) {
 }
 
 template <int D>
+Catheter_end<D> catheter_end(const Json_node& node) {
+  if (node.is_array()) return node.tuple<D>();
+  if (!node.is_string() || node.string().empty()) node.fail("expected the name of a group, or a point");
+  return node.string();
+}
+
+/// The ends between which the path is found; none if it is given.
+template <int D>
+std::optional<Catheter_ends<D>> catheter_ends(const Json_node& node) {
+  if (!node.has("from") && !node.has("to")) return {};
+  for (const char* key : {"path", "find_route"})
+    if (const auto other = node.find(key))
+      other->fail("the path is found between \"from\" and \"to\": leave it out");
+  return Catheter_ends<D>{catheter_end<D>(node.at("from")), catheter_end<D>(node.at("to"))};
+}
+
+template <int D>
 Catheter<D> catheter(const Json_node& node) {
-  node.expect_keys(
-      {"particles", "spacing", "advance", "stiffness", "path", "find_route", "steering", "tip", "twist"});
+  node.expect_keys({"particles", "spacing", "advance", "stiffness", "path", "find_route", "from", "to",
+                    "steering", "tip", "twist"});
   Catheter<D> result;
-  result.spacing = node.at("spacing").positive();
+  result.ends = catheter_ends<D>(node);
+  if (result.ends) result.particles = 0, result.spacing = 0;
+  if (!result.ends || node.has("spacing")) result.spacing = node.at("spacing").positive();
   result.advance = result.spacing / 2;
   if (const auto n = node.find("particles"))
     result.particles = static_cast<std::uint32_t>(n->integer_in(2, detail::most_particles));
@@ -87,7 +135,7 @@ Catheter<D> catheter(const Json_node& node) {
   if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
   if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
   curve(node, result);
-  result.path = detail::waypoints<D>(node.at("path"));
+  if (!result.ends) result.path = detail::waypoints<D>(node.at("path"));
   return result;
 }
 
@@ -260,6 +308,10 @@ Any_scene parse_scene(const std::string& name, std::string_view text, const std:
           if (auto* file = std::get_if<std::string>(&source)) *file = (folder / *file).string();
         };
         resolve(s.environment);
+        if (auto* call = std::get_if<Import_call>(&s.environment)) {
+          for (std::string* file : {&call->file, &call->cache}) *file = (folder / *file).string();
+          for (std::string& file : call->obstacles) file = (folder / file).string();
+        }
         for (auto& body : s.bodies) resolve(body.source);
         if (s.walls && !s.walls->motion.empty()) s.walls->motion = (folder / s.walls->motion).string();
       },

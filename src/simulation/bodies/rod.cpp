@@ -68,6 +68,30 @@ bool Rod<D>::is_held() const {
   return inside_ - along(0) > most_compressed * catheter_.spacing;
 }
 
+/// The length of the path, and what is left of it: to the next waypoint, the tip has to go as far as it is
+/// from it.
+template <int D>
+std::pair<double, double> Rod<D>::whole_and_left() const {
+  double whole = 0, left = has_arrived() ? 0 : length(waypoints_[next_] - tip());
+  for (std::size_t i = 1; i < waypoints_.size(); ++i) {
+    const double piece = length(waypoints_[i] - waypoints_[i - 1]);
+    whole += piece;
+    if (i > next_) left += piece;
+  }
+  return {whole, left};
+}
+
+template <int D>
+double Rod<D>::travelled() const {
+  const auto [whole, left] = whole_and_left();
+  return std::max(0.0, 1 - left / whole);
+}
+
+template <int D>
+std::size_t Rod<D>::steps_left() const {
+  return static_cast<std::size_t>(std::ceil(whole_and_left().second / catheter_.advance));
+}
+
 template <int D>
 bool Rod<D>::sees(const Point<D>& x, Body_counts& counts) {
   body_.refresh(counts);
@@ -141,11 +165,10 @@ void Rod<D>::step(const Dynamics_options<D>& conditions, Step_report<D>& report,
   const detail::Rod_state<D> before = state();
   const double twist_before = twist_ * radians;
   aim();
-  const double longest = catheter_.spacing * static_cast<double>(body_.vertex_count() - 1);
   if (is_held())
     ++waited_;
   else if (!has_arrived() || catheter_.steering == Steering::none)
-    inside_ = std::min(longest, inside_ + catheter_.advance);
+    inside_ = std::min(full_length(), inside_ + catheter_.advance);
   const auto x = body_.positions();
   targets_.assign(x.begin(), x.end());
   detail::push_along<D>(state(), heading_, fastest * catheter_.advance, targets_);

@@ -116,9 +116,11 @@ template <int D>
 template <class Archive>
 void State_access<D>::visit(Archive& a, Rod<D>& rod) {
   a(rod.waypoints_, rod.targets_, rod.direction_, rod.heading_, rod.inside_, rod.twist_, rod.next_,
-    rod.waited_);
+    rod.waited_, rod.catheter_.spacing, rod.catheter_.advance);
   if constexpr (Archive::is_reading)
-    if (rod.waypoints_.size() < 2 || rod.next_ == 0 || rod.next_ > rod.waypoints_.size()) Archive::refuse();
+    if (rod.waypoints_.size() < 2 || rod.next_ == 0 || rod.next_ > rod.waypoints_.size() ||
+        !(rod.catheter_.spacing > 0) || !(rod.catheter_.advance > 0))
+      Archive::refuse();
 }
 
 template <int D>
@@ -144,7 +146,8 @@ Moving_body<D> State_access<D>::read_body(Byte_reader& in, const std::optional<s
   };
   if (body.vertex_count() == 0 || (entry ? *entry >= scene_.bodies.size() : !scene_.catheter))
     Byte_reader::refuse();
-  if (!entry) return made(Rod<D>(snapshot_, std::move(body), *scene_.catheter, scene_.catheter->path));
+  // Its path, too: that of a centre line is found at the start only.
+  if (!entry) return made(Rod<D>(snapshot_, std::move(body), *scene_.catheter, std::vector<Point<D>>(2)));
   const Body_start<D>& start = scene_.bodies[*entry];
   if (start.guided) return made(Rigid_body<D>(std::move(body), *start.guided, start.spin));
   if (start.material) return made(Deformable<D>(std::move(body), *start.material, Vector<D>{}, start.spin));

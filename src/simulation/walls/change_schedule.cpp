@@ -84,14 +84,19 @@ bool follows_a_cut(const std::vector<Environment_change<D>>& list, std::size_t s
 }  // namespace
 
 template <int D>
-Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes,
-                                    const Groups<D>& of_file) {
-  Groups<D> groups = of_file;
+Groups<D> all_groups(const Snapshot<D>& snapshot, const Environment_changes<D>& changes, Groups<D> of_file) {
   for (const auto& [name, part] : changes.groups)
-    if (!groups.emplace(name, select(snapshot, part)).second)
+    if (!of_file.emplace(name, select(snapshot, part)).second)
       throw Error(
           Error_code::input,
           fmt::format("groups.{}: the file of the environment has a group of that name: rename one", name));
+  return of_file;
+}
+
+template <int D>
+Change_schedule<D>::Change_schedule(const Snapshot<D>& snapshot, const Environment_changes<D>& changes,
+                                    const Groups<D>& of_file) {
+  const Groups<D> groups = all_groups(snapshot, changes, of_file);
   for (std::size_t i = 0; i < changes.list.size(); ++i) {
     const Environment_change<D>& change = changes.list[i];
     Planned& planned =
@@ -238,6 +243,8 @@ void Change_schedule<D>::apply_once(const Snapshot<D>& snapshot, Reshaping<D>& r
   });
 }
 
+template Groups<2> all_groups(const Snapshot<2>&, const Environment_changes<2>&, Groups<2>);
+template Groups<3> all_groups(const Snapshot<3>&, const Environment_changes<3>&, Groups<3>);
 template class Change_schedule<2>;
 template class Change_schedule<3>;
 

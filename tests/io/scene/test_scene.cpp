@@ -79,6 +79,38 @@ TEST(Scene, HasDefaults) {
   EXPECT_TRUE(tip.output.picture);
 }
 
+TEST(Scene, ReadsTheEndsOfACatheter) {
+  const auto scene = std::get<Scene<3>>(parse_scene("s.json", R"({"environment": "a.ovm", "steps": 5,
+    "catheter": {"from": "cap_1", "to": [1, 2, 3]}})"));
+  EXPECT_EQ(std::get<std::string>(scene.catheter->ends.value().from), "cap_1");
+  EXPECT_EQ(std::get<Point<3>>(scene.catheter->ends->to), (Point<3>{1, 2, 3}));
+  EXPECT_TRUE(scene.catheter->path.empty());
+  EXPECT_EQ(scene.catheter->spacing, 0) << "follows from the centre line";
+  EXPECT_EQ(scene.catheter->advance, 0);
+  EXPECT_EQ(scene.catheter->particles, 0u);
+  const auto given = std::get<Scene<3>>(parse_scene("s.json", R"({"environment": "a.ovm", "steps": 5,
+    "catheter": {"from": "cap_1", "to": "cap_2", "spacing": 3, "particles": 7}})"));
+  EXPECT_EQ(given.catheter->spacing, 3);
+  EXPECT_EQ(given.catheter->advance, 1.5);
+  EXPECT_EQ(given.catheter->particles, 7u);
+}
+
+TEST(Scene, ReadsAnImport) {
+  const auto text =
+      R"({"environment": {"import": "a.stl", "obstacle": "b.stl", "quality": 2, "mesher": "mesh3",
+    "keep_obstacles": true, "inside": [1, 2, 3]}, "particles": [{"count": 1}], "steps": 1})";
+  const auto scene = std::get<Scene<3>>(parse_scene("s.json", text, "folder"));
+  const auto& call = std::get<Import_call>(scene.environment);
+  EXPECT_EQ(call.file, "folder/a.stl");
+  EXPECT_EQ(call.obstacles, std::vector<std::string>{"folder/b.stl"});
+  EXPECT_EQ(call.cache, "folder/.cellwalk-cache");
+  ASSERT_EQ(call.options.size(), 4u);
+  EXPECT_EQ(std::get<double>(call.options.at("quality")), 2);
+  EXPECT_EQ(std::get<std::string>(call.options.at("mesher")), "mesh3");
+  EXPECT_TRUE(std::get<bool>(call.options.at("keep_obstacles")));
+  EXPECT_EQ(std::get<std::vector<double>>(call.options.at("inside")), (std::vector<double>{1, 2, 3}));
+}
+
 TEST(Scene, ResolvesTheEnvironmentAgainstItsFolder) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "scene_folder";
   std::filesystem::create_directories(folder);
@@ -101,7 +133,13 @@ const Refusal scene_refusals[] = {
     {R"({"dimension": "3"})", "s.json: dimension: expected an integer from 2 to 3"},
     {R"({})", "s.json: key \"environment\" is missing"},
     {R"({"environment": ""})", "s.json: environment: expected the name of a mesh file"},
-    {R"({"environment": 3})", "s.json: environment: expected the name of a mesh file or {\"generate\": ...}"},
+    {R"({"environment": 3})",
+     "s.json: environment: expected the name of a mesh file, {\"import\": ...} or {\"generate\": ...}"},
+    {R"({"environment": {"import": ""}})", "s.json: environment.import: expected the name of a mesh file"},
+    {R"({"environment": {"import": "x", "obstacle": ["y", 1]}})",
+     "s.json: environment.obstacle[1]: expected a text"},
+    {R"({"environment": {"import": "x", "quality": null}})",
+     "s.json: environment.quality: expected a number"},
     {R"({"environment": {}})", "s.json: environment: key \"generate\" is missing"},
     {R"({"environment": {"generate": 1}})", "s.json: environment.generate: expected a text"},
     {R"({"environment": {"generate": "x", "a": "b"}})",
@@ -137,6 +175,13 @@ const Refusal scene_refusals[] = {
      "s.json: particles[0].seed: expected an integer from 0 to 9007199254740992, not -1"},
     {R"({"environment": "e", "catheter": {"path": [[0,0,0],[1,1,1]]}})",
      "s.json: catheter: key \"spacing\" is missing"},
+    {R"({"environment": "e", "catheter": {"from": "cap_1"}})", "s.json: catheter: key \"to\" is missing"},
+    {R"({"environment": "e", "catheter": {"from": 1, "to": "cap_2"}})",
+     "s.json: catheter.from: expected the name of a group, or a point"},
+    {R"({"environment": "e", "catheter": {"from": "cap_1", "to": [1, 2]}})",
+     "s.json: catheter.to: expected 3 numbers"},
+    {R"({"environment": "e", "catheter": {"from": "cap_1", "to": "cap_2", "path": [[0,0,0],[1,1,1]]}})",
+     "s.json: catheter.path: the path is found between \"from\" and \"to\": leave it out"},
     {R"({"environment": "e", "catheter": {"spacing": 0, "path": []}})",
      "s.json: catheter.spacing: expected a number greater than 0, not 0"},
     {R"({"environment": "e", "catheter": {"spacing": 1, "path": [[0,0,0]]}})",

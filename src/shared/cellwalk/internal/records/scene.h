@@ -26,8 +26,18 @@ struct Generator_call {
   std::map<std::string, std::vector<double>> options;
 };
 
-/// The source of the environment: a mesh file (relative to the scene's folder) or a generator call.
-using Environment_source = std::variant<std::string, Generator_call>;
+/// A mesh to import, with options of `cellwalk import` by name.
+struct Import_call {
+  using Value = std::variant<bool, double, std::string, std::vector<double>>;
+  std::string file;                    ///< relative to the scene's folder
+  std::vector<std::string> obstacles;  ///< likewise
+  std::map<std::string, Value> options;
+  std::string cache;  ///< the folder where the environment is kept
+};
+
+/// The source of the environment: a mesh file (relative to the scene's folder), a generator call, or a mesh
+/// to import.
+using Environment_source = std::variant<std::string, Generator_call, Import_call>;
 
 /// One free particle.
 template <int D>
@@ -80,7 +90,17 @@ enum class Steering : std::uint8_t {
   none,   ///< no steering; the base is turned evenly
 };
 
-/// An elastic rod that is pushed in at its base.
+/// An end of the centre line of a catheter: the name of a group of facets or cells, or a point.
+template <int D>
+using Catheter_end = std::variant<std::string, Point<D>>;
+
+/// The ends of a centre line that is found in the cells.
+template <int D>
+struct Catheter_ends {
+  Catheter_end<D> from, to;
+};
+
+/// An elastic rod that is pushed in at its base. With `ends`, numbers that are 0 follow from the centre line.
 template <int D>
 struct Catheter {
   std::uint32_t particles = 20;  ///< its vertices; they enter one by one at the start of the path
@@ -89,6 +109,7 @@ struct Catheter {
   double stiffness = 0.5;        ///< 0: a thread, 1: bends as little as the walls allow
   std::vector<Point<D>> path;    ///< waypoints, at least two; it enters at the first, towards the second
   bool find_route = false;       ///< join waypoints by a route through the cells instead of straight lines
+  std::optional<Catheter_ends<D>> ends{};  ///< of the path, before it is found
   Steering steering = Steering::tip;
   double tip_length = 0;  ///< of the naturally curved part at the tip
   double tip_angle = 0;   ///< angle of the natural curve from end to end, in degrees

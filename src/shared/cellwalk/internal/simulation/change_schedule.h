@@ -34,6 +34,12 @@ struct Change_outcome {
   std::optional<Stitch> stitch;   ///< of sutures only, likewise
 };
 
+/// The groups that the file of an environment names, and named parts of the environment as it is.
+/// \throw Error(input) for a part with the name of a group
+/// Cost: linear for each part.
+template <int D>
+Groups<D> all_groups(const Snapshot<D>& snapshot, const Environment_changes<D>& changes, Groups<D> of_file);
+
 /// Changes with the facets and cells that they have, found when it is made: later motion of walls affects
 /// none. Those that a cut replaces are refused from then on.
 template <int D>
@@ -90,6 +96,8 @@ class Change_schedule {
   friend detail::State_access<D>;
 };
 
+extern template Groups<2> all_groups(const Snapshot<2>&, const Environment_changes<2>&, Groups<2>);
+extern template Groups<3> all_groups(const Snapshot<3>&, const Environment_changes<3>&, Groups<3>);
 extern template class Change_schedule<2>;
 extern template class Change_schedule<3>;
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cellwalk {
@@ -56,6 +57,8 @@ class Rod {
   /// The targets of the vertices in the last step.
   std::span<const Point<D>> targets() const { return targets_; }
   const Point<D>& tip() const { return body_.positions()[0]; }
+  /// The distance between neighbours.
+  double spacing() const { return catheter_.spacing; }
   /// The length that has been pushed in.
   double length_inside() const { return inside_; }
   /// The total rotation of the base, in degrees.
@@ -63,6 +66,14 @@ class Rod {
   std::span<const Point<D>> waypoints() const { return waypoints_; }
   /// The waypoint that the tip aims at; way().size() once it has arrived.
   std::size_t next_waypoint() const { return next_; }
+  /// The share of the path that lies behind the tip; 1 once it has arrived.
+  double travelled() const;
+  /// The number of steps that the rest of the path takes if nothing holds the base back.
+  std::size_t steps_left() const;
+  /// True if walls hold the base back now.
+  bool is_held() const;
+  /// True if all of it has been pushed in.
+  bool is_all_inside() const { return inside_ >= full_length(); }
   /// The number of steps in which the base was held back.
   std::uint32_t steps_waited() const { return waited_; }
   /// Always zero: the rod has no inertia.
@@ -70,7 +81,8 @@ class Rod {
   bool has_arrived() const { return next_ == waypoints_.size(); }
 
  private:
-  bool is_held() const;
+  std::pair<double, double> whole_and_left() const;
+  double full_length() const { return catheter_.spacing * static_cast<double>(body_.vertex_count() - 1); }
   bool sees(const Point<D>& x, Body_counts& counts);
   void pass_waypoints(Body_counts& counts);
   void aim();
