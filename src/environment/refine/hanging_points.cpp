@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Sides take the points of facets near them until there are no more.
+#include "hanging_points.h"
+
+#include <cellwalk/internal/environment/box_grid.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace cellwalk::detail {
+namespace {
+
+/// Facets that pairs join, directly or through others, have the same number.
+std::vector<std::uint32_t> patches(std::size_t facets, std::span<const Facet_pair> pairs) {
+  std::vector<std::uint32_t> patch(facets);
+  std::iota(patch.begin(), patch.end(), 0u);
+  const auto root = [&](std::uint32_t i) {
+    while (patch[i] != i) i = patch[i] = patch[patch[i]];
+    return i;
+  };
+  for (const auto& [i, j] : pairs) {
+    const auto [low, high] = std::minmax({root(i), root(j)});
+    patch[high] = low;
+  }
+  for (std::uint32_t i = 0; i < facets; ++i) patch[i] = root(i);
+  return patch;
+}
+
+std::vector<std::uint32_t> members(std::span<const Facet_pair> pairs) {
+  std::vector<std::uint32_t> facets;
+  for (const auto& [i, j] : pairs) facets.insert(facets.end(), {i, j});
+  std::sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  return facets;
+}
+
+/// Adds the points of a facet that lie inside a side. True if there are any that it did not have.
+template <int D>
+bool take_points(std::uint32_t u, std::uint32_t v, const Facet_loop& loop, Sides<D>& sides) {
+  std::vector<std::uint32_t> offered(loop.begin(), loop.end());
+  for (std::size_t i = 0; i < side_count<D>(loop); ++i) {
+    const auto inside = sides.inside(loop[i], loop[(i + 1) % loop.size()]);
+    offered.insert(offered.end(), inside.begin(), inside.end());
+  }
+  bool is_new = false;
+  for (const std::uint32_t x : offered)
+    if (x != u && x != v && sides.is_inside(u, v, x)) is_new |= sides.add(u, v, x);
+  return is_new;
+}
+
+}  // namespace
+
+template <int D>
+void add_hanging_points(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
+                        std::span<const Facet_pair> pairs, double tolerance, Sides<D>& sides) {
+  const std::vector<std::uint32_t> patch = patches(facets.size(), pairs), paired = members(pairs);
+  Box_grid<D> grid;
+  for (const std::uint32_t i : paired) grid.set(i, facets[i].box);
+  const Vector<D> margin = with_all_coordinates<D>(tolerance);
+  std::vector<std::uint32_t> near;
+  for (bool is_new = true; is_new;) {
+    is_new = false;
+    for (const std::uint32_t i : paired) {
+      const Facet_loop& loop = facets[i].loop;
+      for (std::size_t k = 0; k < side_count<D>(loop); ++k) {
+        const std::uint32_t u = loop[k], v = loop[(k + 1) % loop.size()];
+        Box<D> box;
+        box.extend(points[u]);
+        box.extend(points[v]);
+        near.clear();
+        grid.find({box.low - margin, box.high + margin}, near);
+        std::sort(near.begin(), near.end());
+        for (const std::uint32_t other : near)
+          if (other != i && patch[other] == patch[i] && take_points<D>(u, v, facets[other].loop, sides))
+            is_new = true;
+      }
+    }
+  }
+}
+
+template void add_hanging_points<2>(std::span<const Point<2>>, std::span<const Lone_facet<2>>,
+                                    std::span<const Facet_pair>, double, Sides<2>&);
+template void add_hanging_points<3>(std::span<const Point<3>>, std::span<const Lone_facet<3>>,
+                                    std::span<const Facet_pair>, double, Sides<3>&);
+
+}  // namespace cellwalk::detail
