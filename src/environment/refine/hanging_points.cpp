@@ -26,12 +26,17 @@ std::vector<std::uint32_t> patches(std::size_t facets, std::span<const Facet_pai
   return patch;
 }
 
-std::vector<std::uint32_t> members(std::span<const Facet_pair> pairs) {
-  std::vector<std::uint32_t> facets;
-  for (const auto& [i, j] : pairs) facets.insert(facets.end(), {i, j});
-  std::sort(facets.begin(), facets.end());
-  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-  return facets;
+/// The facets whose sides take points: exactly, those in pairs; otherwise all, as points that are only near a
+/// side bend it for all cells there.
+std::vector<std::uint32_t> takers(std::size_t facets, std::span<const Facet_pair> pairs, double tolerance) {
+  std::vector<std::uint32_t> takers;
+  if (tolerance == 0)
+    for (const auto& [i, j] : pairs) takers.insert(takers.end(), {i, j});
+  else
+    for (std::uint32_t i = 0; i < facets; ++i) takers.push_back(i);
+  std::sort(takers.begin(), takers.end());
+  takers.erase(std::unique(takers.begin(), takers.end()), takers.end());
+  return takers;
 }
 
 /// Adds the points of a facet that lie inside a side. True if there are any that it did not have.
@@ -53,14 +58,15 @@ bool take_points(std::uint32_t u, std::uint32_t v, const Facet_loop& loop, Sides
 template <int D>
 void add_hanging_points(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
                         std::span<const Facet_pair> pairs, double tolerance, Sides<D>& sides) {
-  const std::vector<std::uint32_t> patch = patches(facets.size(), pairs), paired = members(pairs);
+  const std::vector<std::uint32_t> patch = patches(facets.size(), pairs),
+                                   taking = takers(facets.size(), pairs, tolerance);
   Box_grid<D> grid;
-  for (const std::uint32_t i : paired) grid.set(i, facets[i].box);
+  for (const std::uint32_t i : taking) grid.set(i, facets[i].box);
   const Vector<D> margin = with_all_coordinates<D>(tolerance);
   std::vector<std::uint32_t> near;
   for (bool is_new = true; is_new;) {
     is_new = false;
-    for (const std::uint32_t i : paired) {
+    for (const std::uint32_t i : taking) {
       const Facet_loop& loop = facets[i].loop;
       for (std::size_t k = 0; k < side_count<D>(loop); ++k) {
         const std::uint32_t u = loop[k], v = loop[(k + 1) % loop.size()];
@@ -71,7 +77,8 @@ void add_hanging_points(std::span<const Point<D>> points, std::span<const Lone_f
         grid.find({box.low - margin, box.high + margin}, near);
         std::sort(near.begin(), near.end());
         for (const std::uint32_t other : near)
-          if (other != i && patch[other] == patch[i] && take_points<D>(u, v, facets[other].loop, sides))
+          if (other != i && (tolerance != 0 || patch[other] == patch[i]) &&
+              take_points<D>(u, v, facets[other].loop, sides))
             is_new = true;
       }
     }

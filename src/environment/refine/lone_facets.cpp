@@ -60,10 +60,10 @@ template <int D>
 std::vector<Lone_facet<D>> lone_facets(const Cell_soup<D>& soup, const Gluing& gluing) {
   std::vector<Lone_facet<D>> facets;
   for (std::uint32_t c = 0; c < soup.cell_count(); ++c)
-    for (std::uint32_t f = soup.cell_begin[c]; !soup.solid[c] && f < soup.cell_begin[c + 1]; ++f)
+    for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f)
       if (gluing.opposite[f] == no_facet) {
         const auto loop = soup.facet(f);
-        facets.push_back({f, c, false, {}, {loop.begin(), loop.end()}, {}, {}});
+        facets.push_back({f, c, soup.solid[c] != 0, false, {}, {loop.begin(), loop.end()}, {}, {}});
       }
   for_each_parallel(facets.size(), [&](std::size_t i) {
     for (const std::uint32_t v : facets[i].loop) facets[i].box.extend(soup.points[v]);
@@ -74,12 +74,13 @@ std::vector<Lone_facet<D>> lone_facets(const Cell_soup<D>& soup, const Gluing& g
 
 template <int D>
 Facing_pairs facing_pairs(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
-                          double tolerance) {
+                          double tolerance, bool with_solid) {
   Facing_pairs pairs;
   Box_grid<D> grid;
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < facets.size(); ++i) {
     const Lone_facet<D>& f = facets[i];
+    if (f.is_solid && !with_solid) continue;
     const Vector<D> margin = with_all_coordinates<D>(largest_gap<D>(f.box, tolerance));
     found.clear();
     grid.find({f.box.low - margin, f.box.high + margin}, found);
@@ -114,8 +115,10 @@ Facing_facets described(std::span<const Point<D>> points, std::span<const Lone_f
 
 template std::vector<Lone_facet<2>> lone_facets(const Cell_soup<2>&, const Gluing&);
 template std::vector<Lone_facet<3>> lone_facets(const Cell_soup<3>&, const Gluing&);
-template Facing_pairs facing_pairs<2>(std::span<const Point<2>>, std::span<const Lone_facet<2>>, double);
-template Facing_pairs facing_pairs<3>(std::span<const Point<3>>, std::span<const Lone_facet<3>>, double);
+template Facing_pairs facing_pairs<2>(std::span<const Point<2>>, std::span<const Lone_facet<2>>, double,
+                                      bool);
+template Facing_pairs facing_pairs<3>(std::span<const Point<3>>, std::span<const Lone_facet<3>>, double,
+                                      bool);
 template Facing_facets described<2>(std::span<const Point<2>>, std::span<const Lone_facet<2>>,
                                     std::span<const Facet_pair>);
 template Facing_facets described<3>(std::span<const Point<3>>, std::span<const Lone_facet<3>>,

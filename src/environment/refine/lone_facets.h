@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Facets that one free cell has and no other, and those of them that face each other. Internal to refinement.
+// Facets that one cell has and no other, and those of them that face each other. Internal to refinement.
 #ifndef CELLWALK_ENVIRONMENT_REFINE_LONE_FACETS_H
 #define CELLWALK_ENVIRONMENT_REFINE_LONE_FACETS_H
 
@@ -19,6 +19,7 @@ namespace cellwalk::detail {
 template <int D>
 struct Lone_facet {
   std::uint32_t facet, cell;  ///< by their numbers in the soup
+  bool is_solid;              ///< so is the cell
   bool is_sound;              ///< exactly planar and convex; otherwise `plane` is not set
   Plane_points<D> plane;
   Facet_loop loop;
@@ -39,9 +40,10 @@ struct Facing_pairs {
   std::vector<Facet_pair> near;      ///< others of which one lies over the other within the tolerance
 };
 
+/// \param with_solid whether facets of solid cells are paired as well
 template <int D>
 Facing_pairs facing_pairs(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
-                          double tolerance);
+                          double tolerance, bool with_solid);
 
 /// The number of some pairs, and the first with a place; cells by their numbers in the soup.
 template <int D>

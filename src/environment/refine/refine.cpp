@@ -50,7 +50,7 @@ std::optional<Facing<D>> find_facing(const Cell_soup<D>& cells, double share) {
   for (const Lone_facet<D>& facet : facing.facets) box.extend(facet.box);
   const double tolerance =
       share == 0 ? detail::facing_tolerance<D>(box) : detail::facing_tolerance<D>(box, share);
-  auto [touching, near] = detail::facing_pairs<D>(cells.points, facing.facets, tolerance);
+  auto [touching, near] = detail::facing_pairs<D>(cells.points, facing.facets, tolerance, share != 0);
   facing.overlapping = std::move(touching);
   if (share == 0) {
     std::erase_if(near, [&](const Facet_pair& pair) {
