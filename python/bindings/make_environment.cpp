@@ -10,6 +10,8 @@
 #include <pybind11/stl.h>
 
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "arrays.h"
@@ -96,12 +98,21 @@ Shared_world load(const py::object& path, const std::string& duplicates) {
   return share(std::move(loaded.environment), loaded.built.certificate, report.dump(), loaded.groups);
 }
 
+/// "exact", "off", or a part of the diagonal.
+std::optional<double> to_conform(const std::variant<std::string, double>& value) {
+  if (const auto* part = std::get_if<double>(&value)) return *part;
+  return choose<std::optional<double>>(std::get<std::string>(value), "conform",
+                                       {{"exact", 0.0}, {"off", std::nullopt}});
+}
+
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
                          bool simplicial, const std::string& duplicates, const std::string& mesher,
                          std::optional<double> quality, double cell_size, double distance,
-                         bool keep_obstacles, double tissue, double time_limit) {
+                         bool keep_obstacles, double tissue, double time_limit,
+                         const std::variant<std::string, double>& conform) {
   const std::string name = py::str(path);
   Import_options options;
+  options.conform = to_conform(conform);
   options.tissue = tissue;
   for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
@@ -154,7 +165,7 @@ void bind_makers(Environment_class& environment) {
                   py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
                   py::arg("mesher") = "tetgen", py::arg("quality") = py::none(), py::arg("cell_size") = 0.0,
                   py::arg("distance") = 0.0, py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
-                  py::arg("time_limit") = Mesher_options{}.time_limit,
+                  py::arg("time_limit") = Mesher_options{}.time_limit, py::arg("conform") = "exact",
                   "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
                   "necessary, a "
                   "closed surface is filled with tetrahedra, without the obstacles, and a planar domain with "
@@ -162,7 +173,9 @@ void bind_makers(Environment_class& environment) {
                   "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: "
                   "see reshape().\n"
                   "tissue: if not 0, 3D cells are surrounded by solid ones up to a box at this distance.\n"
-                  "time_limit: seconds that a mesher may take in all, in a process of its own.")
+                  "time_limit: seconds that a mesher may take in all, in a process of its own.\n"
+                  "conform: cells of a file that overlap in a plane without a common facet get one: "
+                  "\"exact\", or within this part of the diagonal; \"off\": they are refused.")
       .def_static(
           "generate", &generate_environment, py::arg("kind"), py::kw_only(), py::arg("simplicial") = false,
           "Generates an environment. Kinds and options are those of `cellwalk "

@@ -100,6 +100,11 @@ struct Import_options {
   std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface
   Mesher_options mesher;
   Build_options build{.keep_map = false};
+  /// For files of cells, unless duplicates are kept: where facets of two free cells overlap in a plane (2D: a
+  /// line), they get common pieces. 0: by exact tests, and facets that only rounding keeps apart are refused.
+  /// Otherwise, as a part of the diagonal, within this distance of each other. Not given: cells stay as they
+  /// are, and Environment::build() refuses those that overlap.
+  std::optional<double> conform = 0;
   /// If not 0: 3D cells are surrounded by solid ones up to a box at this distance, see surround_by_tissue().
   double tissue = 0;
   /// Called before each stage of long work with its description, such as "reading part.off".
@@ -109,11 +114,12 @@ struct Import_options {
 /// The report of an import, stage by stage. Nothing is repaired silently.
 struct Import_report {
   struct Stage {
-    std::string title;  ///< "read", "meshed", "changed", "noted" or "tissue"
+    std::string title;  ///< "read", "meshed", "refined", "changed", "noted", "tissue"
     std::vector<std::string> lines;
   };
   std::vector<Stage> stages;
-  nlohmann::ordered_json json;  ///< the same for programs: read, meshed, changed, tissue, certificate
+  nlohmann::ordered_json
+      json;  ///< the same for programs: read, meshed, refined, changed, tissue, certificate
 };
 
 struct Imported_environment {
@@ -124,8 +130,8 @@ struct Imported_environment {
   bool is_compiled = false;  ///< opened as it was compiled
 };
 
-/// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed
-/// surface is filled with tetrahedra, a planar domain with triangles.
+/// Converts any mesh file to a certified environment: cells are certified, and split or given common facets
+/// if necessary; a closed surface is filled with tetrahedra, a planar domain with triangles.
 /// \throw Error(input) if a file is unreadable or an obstacle is not a closed surface, Error(not_certified)
 ///        with the cell and the reason, Error(usage) for obstacles without a surface, for tissue in 2D or as
 ///        surround_by_tissue(), and if this build cannot mesh

@@ -96,11 +96,11 @@ void follow_pieces(Soup_groups& groups, const std::vector<std::uint32_t>& begin)
 /// Within a tolerance no facets may be left that face each other.
 template <int D>
 void check_result(const Cell_soup<D>& soup, double share) {
-  const auto left = find_facing(detail::united(soup), share);
-  if (left && left->overlapping.empty()) return;
-  const std::string remedy = "give another --conform, or mend the mesh there";
-  if (left) refuse_near(left->described(soup, left->overlapping), remedy);
-  throw Error(Error_code::not_certified, "cells do not fit together within the tolerance: " + remedy);
+  const Cell_soup<D> cells = detail::united(soup);
+  if (const auto left = find_facing(cells, share))
+    refuse_near(left->described(cells, left->overlapping), "give another --conform, or mend the mesh there");
+  else
+    glue(cells);  // says why it cannot be done
 }
 
 }  // namespace
