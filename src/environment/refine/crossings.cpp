@@ -2,10 +2,12 @@
 // Crossings by signs in a plane; their coordinates from views along all axes.
 #include "crossings.h"
 
+#include <cellwalk/internal/environment/box_grid.h>
 #include <cellwalk/internal/kernel/crossing.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/kernel/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -24,8 +26,13 @@ struct Two_sides {
 
 class Crossings {
  public:
-  Crossings(std::vector<Point<3>>& points, double tolerance, Sides<3>& sides)
-      : points_(points), tolerance_(tolerance), sides_(sides) {}
+  Crossings(std::vector<Point<3>>& points, std::span<const Lone_facet<3>> facets, double tolerance,
+            Sides<3>& sides)
+      : points_(points), tolerance_(tolerance), sides_(sides) {
+    if (tolerance_ == 0) return;
+    for (const Lone_facet<3>& facet : facets)
+      for (const std::uint32_t v : facet.loop) known_.set(v, {points[v], points[v]});
+  }
 
   void add(const Lone_facet<3>& f, const Lone_facet<3>& g) {
     const Flat_view view = flat_view(points_, f);
@@ -62,10 +69,13 @@ class Crossings {
 
   std::uint32_t crossing_near(const Crossing<2>& crossing, const Two_sides& two) {
     const Point<3> x = point_on<3>(points_[two.p], points_[two.q], crossing_time(crossing));
-    for (const auto& known : {sides_.inside(two.p, two.q), sides_.inside(two.r, two.s)})
-      for (const std::uint32_t v : known)
-        if (length(points_[v] - x) <= tolerance_) return v;
-    return point_at(x);
+    const Vector<3> margin = with_all_coordinates<3>(tolerance_);
+    std::vector<std::uint32_t> near;
+    known_.find({x - margin, x + margin}, near);
+    if (!near.empty()) return *std::min_element(near.begin(), near.end());
+    const std::uint32_t v = point_at(x);
+    known_.set(v, {x, x});
+    return v;
   }
 
   std::uint32_t point_at(const Point<3>& x) {
@@ -79,6 +89,7 @@ class Crossings {
   std::vector<Point<3>>& points_;
   double tolerance_;
   Sides<3>& sides_;
+  Box_grid<3> known_;                          ///< vertices and crossings, if there is a tolerance
   std::map<Point<3>, std::uint32_t> indices_;  ///< of points, the lowest in each place
 };
 
@@ -115,7 +126,7 @@ Side_crossing crossing_of(const Point<3>& p, const Point<3>& q, const Point<3>& 
 
 void add_crossings(std::vector<Point<3>>& points, std::span<const Lone_facet<3>> facets,
                    std::span<const Facet_pair> pairs, double tolerance, Sides<3>& sides) {
-  Crossings crossings(points, tolerance, sides);
+  Crossings crossings(points, facets, tolerance, sides);
   for (const auto& [i, j] : pairs) crossings.add(facets[i], facets[j]);
 }
 

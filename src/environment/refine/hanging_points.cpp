@@ -61,25 +61,31 @@ void add_hanging_points(std::span<const Point<D>> points, std::span<const Lone_f
   const std::vector<std::uint32_t> patch = patches(facets.size(), pairs),
                                    taking = takers(facets.size(), pairs, tolerance);
   Box_grid<D> grid;
-  for (const std::uint32_t i : taking) grid.set(i, facets[i].box);
   const Vector<D> margin = with_all_coordinates<D>(tolerance);
-  std::vector<std::uint32_t> near;
+  const auto enlarged = [&](const Box<D>& box) { return Box<D>{box.low - margin, box.high + margin}; };
+  for (std::uint32_t k = 0; k < taking.size(); ++k) grid.set(k, enlarged(facets[taking[k]].box));
+  std::vector<std::vector<std::uint32_t>> near(taking.size());
+  for (std::uint32_t k = 0; k < taking.size(); ++k) {
+    const std::uint32_t i = taking[k];
+    grid.find(facets[i].box, near[k]);
+    for (std::uint32_t& other : near[k]) other = taking[other];
+    std::erase_if(near[k], [&](std::uint32_t other) {
+      return other == i || (tolerance == 0 && patch[other] != patch[i]);
+    });
+    std::sort(near[k].begin(), near[k].end());
+  }
   for (bool is_new = true; is_new;) {
     is_new = false;
-    for (const std::uint32_t i : taking) {
-      const Facet_loop& loop = facets[i].loop;
-      for (std::size_t k = 0; k < side_count<D>(loop); ++k) {
-        const std::uint32_t u = loop[k], v = loop[(k + 1) % loop.size()];
+    for (std::uint32_t k = 0; k < taking.size(); ++k) {
+      const Facet_loop& loop = facets[taking[k]].loop;
+      for (std::size_t side = 0; side < side_count<D>(loop); ++side) {
+        const std::uint32_t u = loop[side], v = loop[(side + 1) % loop.size()];
         Box<D> box;
         box.extend(points[u]);
         box.extend(points[v]);
-        near.clear();
-        grid.find({box.low - margin, box.high + margin}, near);
-        std::sort(near.begin(), near.end());
-        for (const std::uint32_t other : near)
-          if (other != i && (tolerance != 0 || patch[other] == patch[i]) &&
-              take_points<D>(u, v, facets[other].loop, sides))
-            is_new = true;
+        box = enlarged(box);
+        for (const std::uint32_t other : near[k])
+          if (box.meets(facets[other].box) && take_points<D>(u, v, facets[other].loop, sides)) is_new = true;
       }
     }
   }

@@ -2,6 +2,7 @@
 // Points renamed by their coordinates, and corners within the tolerance by a union of pairs.
 #include "joining.h"
 
+#include <cellwalk/internal/environment/box_grid.h>
 #include <cellwalk/kernel/error.h>
 
 #include <tbb/parallel_sort.h>
@@ -69,22 +70,31 @@ Cell_soup<D> united(const Cell_soup<D>& soup) {
 }
 
 template <int D>
-bool join_corners(Cell_soup<D>& cells, std::span<const Lone_facet<D>> facets,
-                  std::span<const Facet_pair> pairs, double tolerance, Refinement& done) {
+bool join_corners(Cell_soup<D>& cells, std::span<const Lone_facet<D>> facets, double tolerance,
+                  Refinement& done) {
+  std::vector<double> within(cells.points.size(), tolerance);
+  Box_grid<D> corners;
+  for (const Lone_facet<D>& facet : facets)
+    for (const std::uint32_t v : facet.loop) {
+      within[v] = std::min(within[v], largest_gap<D>(facet.box, tolerance));
+      corners.set(v, {cells.points[v], cells.points[v]});
+    }
   Unions unions(cells.points.size());
   bool is_any = false;
-  for (const auto& [i, j] : pairs) {
-    const double within =
-        std::min(largest_gap<D>(facets[i].box, tolerance), largest_gap<D>(facets[j].box, tolerance));
-    for (const std::uint32_t u : facets[i].loop)
-      for (const std::uint32_t v : facets[j].loop) {
+  std::vector<std::uint32_t> near;
+  for (const Lone_facet<D>& facet : facets)
+    for (const std::uint32_t u : facet.loop) {
+      const Vector<D> margin = with_all_coordinates<D>(within[u]);
+      near.clear();
+      corners.find({cells.points[u] - margin, cells.points[u] + margin}, near);
+      for (const std::uint32_t v : near) {
         const double distance = length(cells.points[u] - cells.points[v]);
-        if (u == v || distance > within) continue;
+        if (u == v || distance > std::min(within[u], within[v]) || unions.root(u) == unions.root(v)) continue;
         unions.unite(u, v);
         done.farthest = std::max(done.farthest, distance);
         is_any = true;
       }
-  }
+    }
   if (!is_any) return false;
   refuse_collapsed(cells, unions);
   for (std::uint32_t v = 0; v < cells.points.size(); ++v) done.points_joined += unions.root(v) != v;
@@ -94,9 +104,7 @@ bool join_corners(Cell_soup<D>& cells, std::span<const Lone_facet<D>> facets,
 
 template Cell_soup<2> united(const Cell_soup<2>&);
 template Cell_soup<3> united(const Cell_soup<3>&);
-template bool join_corners<2>(Cell_soup<2>&, std::span<const Lone_facet<2>>, std::span<const Facet_pair>,
-                              double, Refinement&);
-template bool join_corners<3>(Cell_soup<3>&, std::span<const Lone_facet<3>>, std::span<const Facet_pair>,
-                              double, Refinement&);
+template bool join_corners<2>(Cell_soup<2>&, std::span<const Lone_facet<2>>, double, Refinement&);
+template bool join_corners<3>(Cell_soup<3>&, std::span<const Lone_facet<3>>, double, Refinement&);
 
 }  // namespace cellwalk::detail

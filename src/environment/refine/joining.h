@@ -16,12 +16,12 @@ namespace cellwalk::detail {
 template <int D>
 Cell_soup<D> united(const Cell_soup<D>& soup);
 
-/// Replaces corners of facets that face each other by those within the tolerance that have the lowest index,
-/// in all cells. False if there are none.
+/// Replaces corners of facets by those of other ones within the tolerance that have the lowest index, in all
+/// cells. False if there are none.
 /// \throw Error(not_certified) if two corners of a cell would become one
 template <int D>
-bool join_corners(Cell_soup<D>& cells, std::span<const Lone_facet<D>> facets,
-                  std::span<const Facet_pair> pairs, double tolerance, Refinement& done);
+bool join_corners(Cell_soup<D>& cells, std::span<const Lone_facet<D>> facets, double tolerance,
+                  Refinement& done);
 
 }  // namespace cellwalk::detail
 

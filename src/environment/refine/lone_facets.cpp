@@ -74,13 +74,13 @@ std::vector<Lone_facet<D>> lone_facets(const Cell_soup<D>& soup, const Gluing& g
 
 template <int D>
 Facing_pairs facing_pairs(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
-                          double tolerance, bool with_solid) {
+                          double tolerance, bool is_exact) {
   Facing_pairs pairs;
   Box_grid<D> grid;
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < facets.size(); ++i) {
     const Lone_facet<D>& f = facets[i];
-    if (f.is_solid && !with_solid) continue;
+    if (is_exact && f.is_solid) continue;
     const Vector<D> margin = with_all_coordinates<D>(largest_gap<D>(f.box, tolerance));
     found.clear();
     grid.find({f.box.low - margin, f.box.high + margin}, found);
@@ -88,7 +88,7 @@ Facing_pairs facing_pairs(std::span<const Point<D>> points, std::span<const Lone
     for (const std::uint32_t j : found) {
       const Lone_facet<D>& g = facets[j];
       if (f.cell == g.cell || !(dot(f.normal, g.normal) < facing_cosine)) continue;
-      if (is_touching<D>(points, g, f))
+      if (is_exact && is_touching<D>(points, g, f))
         pairs.touching.push_back({j, i});
       else if (is_near<D>(points, g.loop, g.normal, f.loop, tolerance))
         pairs.near.push_back({j, i});

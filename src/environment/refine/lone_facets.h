@@ -40,10 +40,11 @@ struct Facing_pairs {
   std::vector<Facet_pair> near;      ///< others of which one lies over the other within the tolerance
 };
 
-/// \param with_solid whether facets of solid cells are paired as well
+/// \param is_exact whether facets that touch are told from others that are near, and those of solid cells are
+///        left out. Otherwise all are near, unless they overlap by less than the tolerance
 template <int D>
 Facing_pairs facing_pairs(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
-                          double tolerance, bool with_solid);
+                          double tolerance, bool is_exact);
 
 /// The number of some pairs, and the first with a place; cells by their numbers in the soup.
 template <int D>

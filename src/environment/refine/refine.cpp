@@ -50,17 +50,16 @@ std::optional<Facing<D>> find_facing(const Cell_soup<D>& cells, double share) {
   for (const Lone_facet<D>& facet : facing.facets) box.extend(facet.box);
   const double tolerance =
       share == 0 ? detail::facing_tolerance<D>(box) : detail::facing_tolerance<D>(box, share);
-  auto [touching, near] = detail::facing_pairs<D>(cells.points, facing.facets, tolerance, share != 0);
-  facing.overlapping = std::move(touching);
+  auto [touching, near] = detail::facing_pairs<D>(cells.points, facing.facets, tolerance, share == 0);
   if (share == 0) {
+    facing.overlapping = std::move(touching);
     std::erase_if(near, [&](const Facet_pair& pair) {
       return cells.impassable[facing.facets[pair[0]].facet] && cells.impassable[facing.facets[pair[1]].facet];
     });
     facing.near = std::move(near);
   } else {
     facing.tolerance = tolerance;
-    facing.overlapping.insert(facing.overlapping.end(), near.begin(), near.end());
-    std::sort(facing.overlapping.begin(), facing.overlapping.end());
+    facing.overlapping = std::move(near);
   }
   return facing;
 }
@@ -121,8 +120,7 @@ Refinement refine(Cell_soup<D>& soup, Soup_groups& groups, double share) {
   if (facing->overlapping.empty()) return done;
 
   Refinement made{facing->described(cells, facing->overlapping)};
-  if (share != 0 &&
-      detail::join_corners<D>(cells, facing->facets, facing->overlapping, facing->tolerance, made)) {
+  if (share != 0 && detail::join_corners<D>(cells, facing->facets, facing->tolerance, made)) {
     facing = find_facing(cells, share);
     if (!facing) return done;
   }
