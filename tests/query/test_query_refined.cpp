@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -53,19 +54,31 @@ struct World {
   Environment<D> environment;
 };
 
-/// Blocks, some of tetrahedra; none if crossings of diagonals cannot be represented.
+/// Turned by an angle about each of two axes: rounded.
+Point<2> turned(const Point<2>& p) {
+  return {std::cos(0.4) * p[0] - std::sin(0.4) * p[1], std::sin(0.4) * p[0] + std::cos(0.4) * p[1]};
+}
+Point<3> turned(const Point<3>& p) {
+  const Point<2> xy = turned(Point<2>{p[0], p[1]}), yz = turned(Point<2>{xy[1], p[2]});
+  return {xy[0], yz[0], yz[1]};
+}
+
+/// Blocks, some of tetrahedra; none if crossings of diagonals cannot be represented. With a tolerance they
+/// are turned.
 template <int D>
-std::optional<World<D>> world(std::uint64_t seed, double absent, double in_tetrahedra) {
+std::optional<World<D>> world(std::uint64_t seed, double absent, double in_tetrahedra, double tolerance = 0) {
   Random random(seed);
   auto blocks = test::random_blocks<D>(random, extent, 4 + random.below(20), absent);
   Cell_soup<D> soup = test::cells_of(blocks, random, in_tetrahedra);
   Soup_groups groups;
+  if (tolerance != 0)
+    for (Point<D>& p : soup.points) p = turned(p);
   try {
-    if (soup.cell_count() == 0 || refine(soup, groups, 0).pieces == 0) return {};
+    if (soup.cell_count() == 0 || refine(soup, groups, tolerance).pieces == 0) return {};
   } catch (const Error&) {
     return {};
   }
-  return World<D>{std::move(blocks), Environment<D>::build(std::move(soup), {.split = false})};
+  return World<D>{std::move(blocks), Environment<D>::build(std::move(soup), {.split = tolerance != 0})};
 }
 
 /// A point of a block that is there.
@@ -84,12 +97,13 @@ struct Counts {
 
 /// Random motions among blocks, some of which are left out.
 template <int D>
-Counts judge(std::uint64_t first_seed, double in_tetrahedra) {
+Counts judge(std::uint64_t first_seed, double in_tetrahedra, double tolerance = 0) {
   Counts counts;
   Edge_counts work;
   for (std::uint64_t seed = first_seed; seed < first_seed + 60; ++seed) {
     SCOPED_TRACE(seed);
-    const auto made = world<D>(seed, 0.2, in_tetrahedra);
+    const auto made = world<D>(seed, 0.2, in_tetrahedra, tolerance);
+    const auto at = [&](const Point<D>& p) { return tolerance == 0 ? p : turned(p); };
     if (!made) continue;
     ++counts.worlds;
     const auto& [blocks, environment] = *made;
@@ -102,12 +116,12 @@ Counts judge(std::uint64_t first_seed, double in_tetrahedra) {
       const double length = i % 2 == 0 ? 1 : 0.2;
       const Point<D> target = a + length * (inside(blocks, random) - a), q = a + length * (b - a);
       const bool way_is_blocked = is_blocked<D>({a, b}, blocks);
-      EXPECT_EQ(answer_move(snapshot, locator, a, b, Touch::pass, work).status,
+      EXPECT_EQ(answer_move(snapshot, locator, at(a), at(b), Touch::pass, work).status,
                 way_is_blocked ? Motion_status::contact : Motion_status::free);
       ++(way_is_blocked ? counts.blocked : counts.free);
       if (is_blocked<D>({a, q}, blocks)) continue;
       const bool sweep_is_blocked = is_blocked<D>({a, target, q}, blocks);
-      EXPECT_EQ(answer_sweep(snapshot, locator, {a, target, q}, {}, work).status,
+      EXPECT_EQ(answer_sweep(snapshot, locator, {at(a), at(target), at(q)}, {}, work).status,
                 sweep_is_blocked ? Motion_status::contact : Motion_status::free);
       ++(sweep_is_blocked ? counts.blocked_sweeps : counts.free_sweeps);
     }
@@ -128,6 +142,12 @@ TEST(QueryRefined, MotionsAmongBlocksAreBlockedWhereBlocksAreLeftOut) {
   expect_all_kinds(judge<3>(100, 0), 50);
   expect_all_kinds(judge<2>(200, 0.5), 50);
   expect_all_kinds(judge<3>(300, 0.1), 10);
+}
+
+TEST(QueryRefined, SoTheyAreAmongTurnedBlocksWithinATolerance) {
+  expect_all_kinds(judge<3>(400, 0, 1e-9), 50);
+  expect_all_kinds(judge<2>(500, 0.5, 1e-9), 50);
+  expect_all_kinds(judge<3>(600, 0.2, 1e-9), 40);
 }
 
 /// In a box that is full, everything is free: also along facets, edges and diagonals of blocks.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bent_facets.h"
 #include "crossings.h"
 #include "overlay.h"
 
@@ -111,15 +112,22 @@ std::optional<Pieces> pieces_of<2>(std::span<const Point<2>>, std::span<const Lo
 
 template <int D>
 Cell_soup<D> with_pieces(const Cell_soup<D>& soup, const Cell_soup<D>& cells, const Pieces& pieces,
-                         const Sides<D>& sides, std::vector<std::uint32_t>& begin) {
+                         const Sides<D>& sides, double tolerance, std::vector<std::uint32_t>& begin) {
   Cell_soup<D> result;
   result.points = cells.points;
   begin.assign(1, 0);
   for (std::size_t c = 0; c < soup.cell_count(); ++c) {
     const Own_names<D> own(soup, cells, c);
-    const auto add = [&](Facet_loop loop, std::size_t f) {
+    const auto add_whole = [&](Facet_loop loop, std::size_t f) {
       for (std::uint32_t& v : loop) v = own(v);
       result.add_facet(loop, soup.impassable[f]);
+    };
+    const auto add = [&](const Facet_loop& loop, std::size_t f) {
+      std::vector<Facet_loop> triangles;
+      if constexpr (D == 3)
+        if (tolerance != 0) triangles = triangles_of_bent(cells.points, loop, tolerance);
+      if (triangles.empty()) triangles.push_back(loop);
+      for (const Facet_loop& triangle : triangles) add_whole(triangle, f);
     };
     for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) {
       const auto found = pieces.find(f);
@@ -137,8 +145,8 @@ Cell_soup<D> with_pieces(const Cell_soup<D>& soup, const Cell_soup<D>& cells, co
 }
 
 template Cell_soup<2> with_pieces(const Cell_soup<2>&, const Cell_soup<2>&, const Pieces&, const Sides<2>&,
-                                  std::vector<std::uint32_t>&);
+                                  double, std::vector<std::uint32_t>&);
 template Cell_soup<3> with_pieces(const Cell_soup<3>&, const Cell_soup<3>&, const Pieces&, const Sides<3>&,
-                                  std::vector<std::uint32_t>&);
+                                  double, std::vector<std::uint32_t>&);
 
 }  // namespace cellwalk::detail

@@ -25,13 +25,14 @@ template <int D>
 std::optional<Pieces> pieces_of(std::span<const Point<D>> points, std::span<const Lone_facet<D>> facets,
                                 std::span<const Facet_pair> pairs, const Sides<D>& sides, double tolerance);
 
-/// The cells with these pieces, and the points inside the sides of all facets.
+/// The cells with these pieces, and the points inside the sides of all facets. With a tolerance, facets with
+/// points that are not exactly in their sides are cut into triangles.
 /// \param soup as it was read: its cells keep their own of several points in one place
 /// \param cells the same, with the names of points that pieces and sides have, and all points
 /// \param begin receives the number of the first piece of each facet, and the number of all
 template <int D>
 Cell_soup<D> with_pieces(const Cell_soup<D>& soup, const Cell_soup<D>& cells, const Pieces& pieces,
-                         const Sides<D>& sides, std::vector<std::uint32_t>& begin);
+                         const Sides<D>& sides, double tolerance, std::vector<std::uint32_t>& begin);
 
 }  // namespace cellwalk::detail
 

@@ -141,7 +141,7 @@ Refinement refine(Cell_soup<D>& soup, Soup_groups& groups, double share) {
     made.pieces += loops.size();
   }
   std::vector<std::uint32_t> begin;
-  Cell_soup<D> result = detail::with_pieces(soup, cells, *pieces, sides, begin);
+  Cell_soup<D> result = detail::with_pieces(soup, cells, *pieces, sides, facing->tolerance, begin);
   if (share != 0) check_result(result, share);
   soup = std::move(result);
   follow_pieces(groups, begin);
