@@ -10,6 +10,8 @@
 #include <pybind11/stl.h>
 
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "arrays.h"
@@ -109,13 +111,21 @@ void set_inside(const py::object& inside, Repair_options& repair) {
     repair.inside = {inside.cast<Point<3>>()};
 }
 
+/// "exact", "off", or a part of the diagonal.
+std::optional<double> to_conform(const std::variant<std::string, double>& value) {
+  if (const auto* part = std::get_if<double>(&value)) return *part;
+  return choose<std::optional<double>>(std::get<std::string>(value), "conform",
+                                       {{"exact", 0.0}, {"off", std::nullopt}});
+}
+
 Shared_world import_mesh(const py::object& path, const std::vector<py::object>& obstacles, bool split,
                          bool simplicial, const std::string& duplicates, const std::string& mesher,
                          std::optional<double> quality, double cell_size, double distance,
                          bool keep_obstacles, double tissue, double time_limit, bool strict,
-                         const py::object& inside) {
+                         const py::object& inside, const std::variant<std::string, double>& conform) {
   const std::string name = py::str(path);
   Import_options options;
+  options.conform = to_conform(conform);
   options.tissue = tissue;
   for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
@@ -172,7 +182,7 @@ void bind_makers(Environment_class& environment) {
           py::arg("quality") = py::none(), py::arg("cell_size") = 0.0, py::arg("distance") = 0.0,
           py::arg("keep_obstacles") = false, py::arg("tissue") = 0.0,
           py::arg("time_limit") = Mesher_options{}.time_limit, py::arg("strict") = false,
-          py::arg("inside") = "auto",
+          py::arg("inside") = "auto", py::arg("conform") = "exact",
           "Makes an environment from any mesh file, as `cellwalk import` does: cells are split if "
           "necessary, a "
           "surface is filled with tetrahedra, without the obstacles, and a planar domain with "
@@ -184,7 +194,9 @@ void bind_makers(Environment_class& environment) {
           "strict: surfaces that are open, not manifold or cross themselves are refused; otherwise "
           "they are repaired, and caps, mouths and sheets are groups of facets.\n"
           "inside: the free space: \"auto\", what the surface encloses, or the lumen of a thick wall; "
-          "\"solid\", always what it encloses; a point or points in it.")
+          "\"solid\", always what it encloses; a point or points in it.\n"
+          "conform: cells of a file that overlap in a plane without a common facet get one: "
+          "\"exact\", or within this part of the diagonal; \"off\": they are refused.")
       .def_static(
           "generate", &generate_environment, py::arg("kind"), py::kw_only(), py::arg("simplicial") = false,
           "Generates an environment. Kinds and options are those of `cellwalk "

@@ -219,6 +219,7 @@ class Environment:
         keep_obstacles: bool = False,
         tissue: float = 0.0,
         time_limit: float = 600.0,
+        conform: Union[Literal["exact", "off"], float] = "exact",
     ) -> Environment: ...
     @staticmethod
     def generate(

@@ -126,6 +126,22 @@ class FromFiles(unittest.TestCase):
         with self.assertRaisesRegex(cellwalk.InputError, "broken.off:"):
             cellwalk.Environment.import_mesh(broken)
 
+    def test_import_of_cells_that_do_not_conform(self):
+        hanging = self.folder / "hanging.off"
+        hanging.write_text(
+            "OFF\n8 3 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n2 1 0\n3 0 0\n3 1 0\n3 2 0\n4 0 1 2 3\n4 1 5 6 4\n4 4 6 7 2\n"
+        )
+        for conform in ("exact", 1e-9):
+            environment = cellwalk.Environment.import_mesh(hanging, conform=conform)
+            self.assertEqual(environment.certificate["components"], 1)
+            self.assertEqual(environment.report["refined"]["pairs"], 2)
+            self.assertEqual(environment.report["refined"]["pieces"], 2)
+        with self.assertRaisesRegex(cellwalk.NotCertifiedError, "share a part of a line"):
+            cellwalk.Environment.import_mesh(hanging, conform="off")
+        for wrong in (2.0, -1e-9, "perhaps"):
+            with self.assertRaises(cellwalk.UsageError):
+                cellwalk.Environment.import_mesh(hanging, conform=wrong)
+
     def test_import_as_the_program_does(self):
         torus = os.environ.get("CELLWALK_TORUS")
         if torus is None:  # a build without TetGen says so

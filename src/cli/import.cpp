@@ -83,7 +83,8 @@ Point<3> point_of(const std::string& text) {
 void add_repair_options(CLI::App& command, Mesher_options& options) {
   if (!mesher_parts().meshing) return;
   CLI::Option* const strict = command.add_flag(
-      "--strict", options.is_strict, "Refuse surfaces that are open, not manifold or cross themselves");
+      "--strict", options.is_strict,
+      "Refuse surfaces that are open, not manifold or cross themselves, and cells that do not conform");
   command
       .add_option_function<std::vector<std::string>>(
           "--inside",
@@ -117,6 +118,31 @@ void add_repair_options(CLI::App& command, Mesher_options& options) {
   add_choice(command, "--sheets", options.repair.sheets,
              {{"keep", Sheets::keep}, {"open", Sheets::open}, {"refuse", Sheets::refuse}},
              "Facets inside, or given on both sides: membranes, nothing, or a reason to refuse the surface");
+}
+
+/// Adds the option for cells that do not conform.
+void add_conform(CLI::App& command, std::optional<double>& value) {
+  constexpr double most = 0.01;
+  const auto is_number = number_from(least_size, "", most);
+  command
+      .add_option_function<std::string>(
+          "--conform",
+          [&value](const std::string& word) {
+            if (word == "off")
+              value.reset();
+            else
+              value = word == "exact" ? 0 : std::stod(word);
+          },
+          "Cells of a file that overlap in a plane without a common facet: divide their facets there, "
+          "exactly, "
+          "or within this part of the diagonal, or refuse them")
+      ->check([is_number](const std::string& word) {
+        const bool is_known = word == "exact" || word == "off" || is_number(word).empty();
+        return is_known ? std::string{}
+                        : "takes exact, off, or a number greater than 0 up to 0.01, not " + word;
+      })
+      ->type_name("exact|REL|off")
+      ->default_str("exact");
 }
 
 std::string text(const Import_report& report) {
@@ -179,6 +205,7 @@ void add_import(CLI::App& app, Action& chosen) {
                  "Split all cells into tetrahedra, or triangles in 2D, as walls that move need")
       ->excludes(no_split);
   add_duplicates(*command, options->import.build.duplicates);
+  add_conform(*command, options->import.conform);
   add_edge_length(*command, options->edge_length);
   add_json(*command, options->json);
   add_examples(
@@ -187,6 +214,7 @@ void add_import(CLI::App& app, Action& chosen) {
        "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
        "cellwalk import aneurysm.stl --mesher mesh3 --tissue 2 -o beating.ovm",
        "cellwalk import floor.wkt -o floor.ovm --json report.json",
+       "cellwalk import blocks.vtk --conform 1e-9 -o blocks.ovm",
        "cellwalk import vessel.ovm -o vessel.cellwalk"});
   command->callback([options, &chosen] { chosen = [options] { import(*options); }; });
 }

@@ -60,7 +60,7 @@ void refuse_overlapping(const Facing_facets& facets) {
           " share a part of a " + (D == 2 ? "line" : "plane") + " at " +
           detail::describe_place(facets.place) + " but no facet" +
           (facets.pairs == 1 ? "" : ", the first of " + std::to_string(facets.pairs) + " such pairs") +
-          ": make them conform, or keep duplicates (--duplicates keep) to have walls there");
+          ": divide them by `cellwalk import`, or keep duplicates (--duplicates keep) to have walls there");
 }
 
 }  // namespace

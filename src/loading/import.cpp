@@ -2,6 +2,7 @@
 // Any mesh becomes a certified environment, and every change is reported.
 #include <cellwalk/environment/environment.h>
 #include <cellwalk/internal/environment/groups.h>
+#include <cellwalk/internal/environment/refine.h>
 #include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/internal/loading/report.h>
 #include <cellwalk/loading/environment_file.h>
@@ -25,6 +26,9 @@ nlohmann::ordered_json to_json(const std::string& path, const io::Mesh_file& fil
           {"notes", file.report.notes}};
 }
 
+/// Of the diagonal. Beyond it, cells would be joined that nobody meant to touch.
+constexpr double largest_conform = 0.01;
+
 /// One import: the stages append to the report.
 class Import {
  public:
@@ -44,8 +48,9 @@ class Import {
                                                  io::kind_name(file.mesh)));
     if (const auto* domain = std::get_if<Planar_domain>(&file.mesh))
       return build_meshed(naming(path_, [&] { return mesh_domain(*domain, options_.mesher); }));
-    if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh)) return build(std::move(*soup), file.groups);
-    return build(std::move(std::get<Cell_soup<3>>(file.mesh)), file.groups);
+    if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh))
+      return build_cells(std::move(*soup), std::move(file.groups));
+    return build_cells(std::move(std::get<Cell_soup<3>>(file.mesh)), std::move(file.groups));
   }
 
  private:
@@ -55,7 +60,6 @@ class Import {
     if (!options_.obstacles.empty()) return "--obstacle";
     if (mesher.quality) return "--quality";
     if (mesher.cell_size != 0) return "--cell-size";
-    if (mesher.is_strict) return "--strict";
     if (mesher.repair.is_solid || !mesher.repair.inside.empty()) return "--inside";
     return mesher.distance != 0 ? "--distance" : nullptr;
   }
@@ -101,6 +105,22 @@ class Import {
     report_.stages.push_back({"meshed", std::move(meshed.lines)});
     report_.json["meshed"] = std::move(meshed.report);
     return build(std::move(meshed.soup), meshed.groups);
+  }
+
+  /// Cells of a file, which need not conform.
+  template <int D>
+  Imported_environment build_cells(Cell_soup<D> soup, Soup_groups groups) {
+    if (options_.conform && !(*options_.conform >= 0 && *options_.conform <= largest_conform))
+      throw Error(Error_code::usage,
+                  fmt::format("--conform: takes exact, off, or a number greater than 0 up to 0.01, not {}",
+                              *options_.conform));
+    if (options_.conform && !options_.mesher.is_strict &&
+        options_.build.duplicates != Duplicate_vertices::keep) {
+      const Refinement refined = naming(path_, [&] { return refine(soup, groups, *options_.conform); });
+      if (refined.facing.pairs != 0) report_.stages.push_back({"refined", changes(refined)});
+      report_.json["refined"] = to_json(refined);
+    }
+    return build(std::move(soup), groups);
   }
 
   template <int D>

@@ -64,6 +64,32 @@ constexpr Named_option named_options[] = {
      [](Import_options& o, const Import_value& v) { return set_number(o.mesher.distance, v, above_0); }},
     {"keep_obstacles", "true or false",
      [](Import_options& o, const Import_value& v) { return set_flag(o.mesher.keep_obstacles, v); }},
+    {"strict", "true or false",
+     [](Import_options& o, const Import_value& v) { return set_flag(o.mesher.is_strict, v); }},
+    {"inside", "\"auto\", \"solid\" or a point [x, y, z]",
+     [](Import_options& o, const Import_value& v) {
+       const auto* point = std::get_if<std::vector<double>>(&v);
+       if (point == nullptr) return set_word(o.mesher.repair.is_solid, v, {{"auto", false}, {"solid", true}});
+       if (point->size() != 3) return false;
+       o.mesher.repair.inside = {{(*point)[0], (*point)[1], (*point)[2]}};
+       return true;
+     }},
+    {"seam", "a number of at least 0",
+     [](Import_options& o, const Import_value& v) { return set_number(o.mesher.repair.seam, v, 0); }},
+    {"weld", "a number of at least 0",
+     [](Import_options& o, const Import_value& v) { return set_number(o.mesher.repair.weld, v, 0); }},
+    {"max_move", "a number of at least 0",
+     [](Import_options& o, const Import_value& v) { return set_number(o.mesher.repair.max_move, v, 0); }},
+    {"sheets", "\"keep\", \"open\" or \"refuse\"",
+     [](Import_options& o, const Import_value& v) {
+       return set_word(o.mesher.repair.sheets, v,
+                       {{"keep", Sheets::keep}, {"open", Sheets::open}, {"refuse", Sheets::refuse}});
+     }},
+    {"conform", "\"exact\", \"off\" or a number greater than 0",
+     [](Import_options& o, const Import_value& v) {
+       return set_number(o.conform, v, above_0) ||
+              set_word<std::optional<double>>(o.conform, v, {{"exact", 0.0}, {"off", std::nullopt}});
+     }},
     {"time_limit", "a number greater than 0",
      [](Import_options& o, const Import_value& v) { return set_number(o.mesher.time_limit, v, above_0); }},
     {"tissue", "a number greater than 0",

@@ -6,6 +6,23 @@
 #include <nlohmann/json.hpp>
 
 namespace cellwalk {
+namespace {
+
+/// "1, 0.5, 0".
+std::string first_place(const Facing_facets& facets) {
+  std::string text;
+  for (const double x : facets.place) text += (text.empty() ? "" : ", ") + rounded(x);
+  return text;
+}
+
+nlohmann::ordered_json described(const Facing_facets& facets) {
+  nlohmann::ordered_json json{{"pairs", facets.pairs}};
+  if (facets.pairs != 0)
+    json["first"] = {{"cells", facets.cells}, {"at", facets.place}, {"distance", facets.distance}};
+  return json;
+}
+
+}  // namespace
 
 std::string describe(const Certificate& c, int dimension) {
   std::string text;
@@ -78,15 +95,42 @@ nlohmann::ordered_json to_json(const Build_report& built) {
           {"facing_walls", to_json(built.facing)}};
 }
 
+std::vector<std::string> changes(const Refinement& refined) {
+  const Facing_facets& facing = refined.facing;
+  std::vector<std::string> lines;
+  if (facing.pairs == 0) return lines;
+  lines.push_back(
+      fmt::format("cells did not conform: {} of facets overlapped, the first of cells {} and {} at ({})",
+                  facing.pairs == 1 ? "1 pair" : fmt::format("{} pairs", facing.pairs), facing.cells[0],
+                  facing.cells[1], first_place(facing)));
+  if (refined.facets != 0)
+    lines.push_back(fmt::format("{} {} divided into {} pieces", refined.facets,
+                                refined.facets == 1 ? "facet" : "facets", refined.pieces));
+  if (refined.points_added != 0)
+    lines.push_back(fmt::format("{} points added where sides of facets cross", refined.points_added));
+  if (refined.points_joined != 0)
+    lines.push_back(fmt::format("{} points joined with others, the farthest by {}", refined.points_joined,
+                                rounded(refined.farthest)));
+  return lines;
+}
+
+nlohmann::ordered_json to_json(const Refinement& refined) {
+  nlohmann::ordered_json json = described(refined.facing);
+  json["facets"] = refined.facets;
+  json["pieces"] = refined.pieces;
+  json["points_added"] = refined.points_added;
+  json["points_joined"] = refined.points_joined;
+  json["farthest"] = refined.farthest;
+  return json;
+}
+
 std::vector<std::string> notes(const Facing_walls& facing) {
   std::vector<std::string> lines;
   const auto note = [&lines](const Facing_facets& facets, const std::string& where) {
     if (facets.pairs == 0) return;
-    std::string place;
-    for (const double x : facets.place) place += (place.empty() ? "" : ", ") + rounded(x);
     lines.push_back(fmt::format("{} {}, with walls between free cells: the first of cells {} and {} at ({})",
                                 facets.pairs, (facets.pairs == 1 ? "pair" : "pairs") + where, facets.cells[0],
-                                facets.cells[1], place));
+                                facets.cells[1], first_place(facets)));
   };
   note(facing.overlapping, std::string(" of facets that overlap in a ") +
                                (facing.overlapping.place.size() == 2 ? "line" : "plane"));
@@ -96,12 +140,6 @@ std::vector<std::string> notes(const Facing_walls& facing) {
 }
 
 nlohmann::ordered_json to_json(const Facing_walls& facing) {
-  const auto described = [](const Facing_facets& facets) {
-    nlohmann::ordered_json json{{"pairs", facets.pairs}};
-    if (facets.pairs != 0)
-      json["first"] = {{"cells", facets.cells}, {"at", facets.place}, {"distance", facets.distance}};
-    return json;
-  };
   nlohmann::ordered_json near = described(facing.near);
   near["tolerance"] = facing.tolerance;
   return {{"overlapping", described(facing.overlapping)}, {"near", near}};

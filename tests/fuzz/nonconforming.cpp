@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Layers of cells that are cut in different ways, and points that are moved: unintended walls are
-// refused, exactly where brute force in rationals finds them.
+// refused, exactly where brute force in rationals finds them, and refined to cells that conform.
 #include "environment/nonconforming.h"
 
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/environment/refine.h>
 
 #include <cmath>
 #include <string>
@@ -26,6 +27,29 @@ void nudge(Cell_soup<D>& soup, Decoder& in) {
     return;
   }
   for (int i = 0; i < std::abs(steps) % 8; ++i) x = std::nextafter(x, steps < 0 ? -1e9 : 1e9);
+}
+
+/// Cells that do not overlap are refined to cells that conform, or refused with a reason.
+template <int D>
+void refine_and_judge(const Cell_soup<D>& soup, const Build_report& kept, double tolerance) {
+  Cell_soup<D> refined = soup;
+  Soup_groups groups;
+  const auto codes = {Error_code::not_certified};
+  if (!reads([&] { refine(refined, groups, tolerance); }, codes)) return;
+  Build_report built;
+  const bool is_exact = tolerance == 0;
+  const auto build = [&] {
+    Environment<D>::build(refined, {.duplicates = Duplicate_vertices::merge, .split = !is_exact}, &built);
+  };
+  if (!is_exact) {
+    reads(build, {Error_code::input, Error_code::not_certified});
+    return;
+  }
+  build();
+  demand(built.certificate.cells == kept.certificate.cells, "no cell is cut");
+  demand(built.certificate.membranes == kept.certificate.membranes, "no wall is made");
+  const double volume = kept.certificate.free_volume;
+  demand(std::abs(built.certificate.free_volume - volume) <= 1e-9 * volume, "free space stays as it is");
 }
 
 template <int D>
@@ -59,6 +83,7 @@ void build_and_judge(Decoder& in) {
       reads([&] { Environment<D>::build(soup, {.duplicates = Duplicate_vertices::merge, .split = false}); },
             {Error_code::input, Error_code::not_certified});
   demand(!is_read || is_merged, "what is accepted with points apart has none to merge");
+  refine_and_judge(soup, kept, in.flag() ? 1e-9 : 0);
 }
 
 }  // namespace

@@ -89,5 +89,24 @@ TEST_F(Loading, EveryRecipeIsCertifiedAsItStands) {
   EXPECT_THROW(generate("hexes", {{"cells", {2, 3}}}), Error);
 }
 
+/// Unit cubes whose corners are joined, as solvers write prisms, pyramids and tetrahedra.
+TEST_F(Loading, CollapsedHexahedraAreTheCellsThatTheyAre) {
+  const std::vector<std::pair<std::string, double>> cells{{"1 2 3 3 5 6 7 7", 1. / 2},
+                                                          {"1 2 3 4 5 5 5 5", 1. / 3},
+                                                          {"1 2 3 3 5 5 5 5", 1. / 6},
+                                                          {"1 2 3 4 5 6 3 4", 1. / 2},
+                                                          {"1 2 3 4 5 6 3 8", 2. / 3}};
+  for (const auto& [corners, volume] : cells) {
+    const std::string path = write("m.mesh",
+                                   "MeshVersionFormatted 1\nDimension 3\nVertices\n8\n0 0 0 0\n1 0 0 0\n1 1 "
+                                   "0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n"
+                                   "1 1 1 0\n0 1 1 0\nHexahedra\n1\n" +
+                                       corners + " 0\nEnd\n");
+    const Imported_environment imported = import_environment(path, {});
+    EXPECT_DOUBLE_EQ(imported.built.certificate.volume, volume) << corners;
+    EXPECT_EQ(imported.built.certificate.components, 1u);
+  }
+}
+
 }  // namespace
 }  // namespace cellwalk

@@ -90,8 +90,8 @@ struct Mesher_options {
   bool keep_obstacles = false;  ///< not by Mesh_3
   /// Names of the obstacles in messages; default: "obstacle 1", ...
   std::vector<std::string> obstacle_names{};
-  /// Surfaces that are not closed, not manifold or cross themselves are refused, as surfaces with obstacles
-  /// always are, and for Mesh_3; false: they are repaired
+  /// Surfaces that are not closed, not manifold or cross themselves are refused, as those with obstacles and
+  /// for Mesh_3 always are, and cells that do not conform; false: they are repaired, and get common facets
   bool is_strict = false;
   Repair_options repair{};  ///< with points inside, also a surface without defects is meshed around them
   double time_limit = 600;  ///< seconds that TetGen or Mesh_3 may take in all, greater than 0
@@ -104,6 +104,11 @@ struct Import_options {
   std::vector<std::string> obstacles;  ///< files of closed surfaces inside; only with a surface
   Mesher_options mesher;
   Build_options build{.keep_map = false};
+  /// For files of cells, unless duplicates are kept: where facets of two free cells overlap in a plane (2D: a
+  /// line), they get common pieces. 0: by exact tests, and facets that only rounding keeps apart are refused.
+  /// Otherwise, as a part of the diagonal, within this distance of each other. Not given: cells stay as they
+  /// are, and Environment::build() refuses those that overlap.
+  std::optional<double> conform = 0;
   /// If not 0: 3D cells are surrounded by solid ones up to a box at this distance, see surround_by_tissue().
   double tissue = 0;
   /// Called before each stage of long work with its description, such as "reading part.off".
@@ -113,12 +118,12 @@ struct Import_options {
 /// The report of an import, stage by stage. Nothing is repaired silently.
 struct Import_report {
   struct Stage {
-    std::string title;  ///< "read", "repaired", "meshed", "changed", "noted" or "tissue"
+    std::string title;  ///< "read", "repaired", "meshed", "refined", "changed", "noted", "tissue"
     std::vector<std::string> lines;
   };
   std::vector<Stage> stages;
-  nlohmann::ordered_json
-      json;  ///< the same for programs: read, repaired, meshed, changed, tissue, certificate
+  /// The same for programs: read, repaired, meshed, refined, changed, tissue, certificate.
+  nlohmann::ordered_json json;
 };
 
 struct Imported_environment {
@@ -129,8 +134,9 @@ struct Imported_environment {
   bool is_compiled = false;  ///< opened as it was compiled
 };
 
-/// Converts any mesh file to a certified environment: cells are certified, and split if necessary; a closed
-/// surface is filled with tetrahedra, after repairs if it needs any, a planar domain with triangles.
+/// Converts any mesh file to a certified environment: cells are certified, and split or given common facets
+/// if necessary; a surface is filled with tetrahedra, after repairs if it needs any, a planar domain with
+/// triangles.
 /// \throw Error(input) if a file is unreadable, a surface encloses nothing, or an obstacle is not a closed
 ///        surface, Error(not_certified)
 ///        with the cell and the reason, Error(usage) for obstacles without a surface, for tissue in 2D or as

@@ -39,21 +39,12 @@ class Facing_search {
   Facing_walls result() const;
 
  private:
-  /// The part of a facet that lies over or below another one, which is about as large as the unit; rounded.
-  struct Common_part {
-    std::vector<Vector<D>> corners;  ///< relative to the first vertex of the other one
-    int exponent = 0;                ///< of the unit, a power of 2
-    double gap = 0;                  ///< the largest distance from the plane of the other one
-  };
   using Key = std::array<std::uint32_t, 4>;  ///< both cells by their indices, and both facets
   struct Pairs {
     std::size_t count = 0;
     Key first{};
   };
 
-  Common_part common_part(std::uint32_t f, std::uint32_t g) const;
-  bool is_near(std::uint32_t f, std::uint32_t g) const;
-  double largest_gap(const Box<D>& box) const;
   void add(Pairs& pairs, std::uint32_t f, std::uint32_t g);
   Facing_facets described(const Pairs& pairs) const;
 

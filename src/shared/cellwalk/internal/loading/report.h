@@ -4,6 +4,7 @@
 #define CELLWALK_INTERNAL_LOADING_REPORT_H
 
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/internal/environment/refine.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,6 +20,10 @@ nlohmann::ordered_json to_json(const Certificate& certificate, int dimension);
 /// The changes made by building, one sentence each, or one sentence if there were none.
 std::vector<std::string> changes(const Build_report& built);
 nlohmann::ordered_json to_json(const Build_report& built);
+
+/// What became of cells that did not conform, one sentence each, if there were any.
+std::vector<std::string> changes(const Refinement& refined);
+nlohmann::ordered_json to_json(const Refinement& refined);
 
 /// A sentence on each kind of walls between free cells that nothing parts, if there are any.
 std::vector<std::string> notes(const Facing_walls& facing);
