@@ -219,6 +219,8 @@ class Environment:
         keep_obstacles: bool = False,
         tissue: float = 0.0,
         time_limit: float = 600.0,
+        strict: bool = False,
+        inside: Union[Literal["auto", "solid"], Sequence[float], Sequence[Sequence[float]]] = "auto",
         conform: Union[Literal["exact", "off"], float] = "exact",
     ) -> Environment: ...
     @staticmethod

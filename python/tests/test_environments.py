@@ -155,6 +155,21 @@ class FromFiles(unittest.TestCase):
         self.assertEqual(environment.report["meshed"]["boundary_facets"], 256)
         self.assertEqual(environment.locate(numpy.array([[1.0, 0, 0], [0, 0, 0]])).status.tolist(),
                          [cellwalk.Place.FREE, cellwalk.Place.OUTSIDE])
+        open_cube = self.folder / "open.off"
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2)]
+        open_cube.write_text(
+            "OFF\n8 5 0\n" + "".join("%d %d %d\n" % p for p in corners) + "".join("4 %d %d %d %d\n" % q for q in sides)
+        )
+        capped = cellwalk.Environment.import_mesh(open_cube)
+        self.assertEqual(capped.certificate["volume"], 1)
+        self.assertEqual(capped.report["repaired"]["parts"][0]["name"], "cap_1")
+        self.assertIn("cap_1", capped.groups)
+        self.assertEqual(cellwalk.Environment.import_mesh(open_cube, inside="solid").certificate["volume"], 1)
+        self.assertEqual(cellwalk.Environment.import_mesh(open_cube, inside=(0.5, 0.5, 0.5)).certificate["cells"],
+                         cellwalk.Environment.import_mesh(open_cube, inside=[(0.5, 0.5, 0.5)]).certificate["cells"])
+        with self.assertRaisesRegex(cellwalk.InputError, "surface is open"):
+            cellwalk.Environment.import_mesh(open_cube, strict=True)
         inner = self.folder / "inner.off"
         inner.write_text("OFF\n4 4 0\n1 0 0\n1.1 0 0\n1 0.1 0\n1 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
         with_obstacle = cellwalk.Environment.import_mesh(torus, obstacles=[inner])

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
+#include <sstream>
+
 #include "cli/meshes.h"
 #include "cli/program.h"
 
@@ -221,7 +223,9 @@ TEST_F(Import, SurroundsCellsByTissue) {
   EXPECT_GT(import("cells.ovm", {"--simplicial", "--tissue", "1"}).at("tissue").at("solid_cells").get<int>(),
             11);
   write("open.off", open_cube_off());
-  expect_failure(3, {"import", "open.off", "--tissue", "1", "-o", "out.ovm"}, {"surface is open"});
+  expect_failure(3, {"import", "open.off", "--strict", "--tissue", "1", "-o", "out.ovm"},
+                 {"surface is open"});
+  EXPECT_GT(import("open.off", {"--tissue", "1"}).at("tissue").at("solid_cells").get<int>(), 11);
 }
 
 /// Groups are found again among cells that are surrounded by others.
@@ -248,9 +252,50 @@ TEST_F(Import, TurnsAnInsideOutSurfaceRoundAndSaysSo) {
   EXPECT_EQ(import("cube.off").at("meshed").at("surface").at("inside_out"), true);
 }
 
-TEST_F(Import, RefusesAnOpenSurface) {
+TEST_F(Import, CapsAnOpenSurfaceUnlessItIsStrict) {
   write("open.off", open_cube_off());
-  expect_failure(3, {"import", "open.off", "-o", "env.ovm"}, {"open.off: ", "open"});
+  expect_failure(3, {"import", "open.off", "-o", "out.ovm", "--strict"}, {"open.off: surface is open"});
+  const auto report = import("open.off");
+  EXPECT_EQ(report.at("certificate").at("volume"), 1);
+  const auto& parts = report.at("repaired").at("parts");
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].at("name"), "cap_1");
+  EXPECT_EQ(parts[0].at("area"), 0.5);
+  EXPECT_NE(text("env.ovm").find("group cap_1"), std::string::npos);
+  EXPECT_NE(said_.find("  repaired    cap_1: 3 edges, area 0.5"), std::string::npos) << said_;
+}
+
+/// What is accepted as it is gives the same cells with and without repairs.
+TEST_F(Import, RepairsNothingThatIsSound) {
+  write("cube.off", cube_off());
+  import("cube.off", {"--strict"});
+  const std::string bytes = text("env.ovm");
+  const auto report = import("cube.off");
+  EXPECT_FALSE(report.contains("repaired"));
+  EXPECT_EQ(text("env.ovm"), bytes);
+}
+
+TEST_F(Import, MeshesTheSpaceAroundAPoint) {
+  // A cube in a cube, as one surface: hollow between them, and a room within.
+  std::string both = cube_off(4);
+  both.replace(both.find("8 12 0"), 6, "16 24 0");
+  const std::string inner = cube_off(1, 0.5);
+  std::istringstream in(inner);
+  std::string line, points, facets;
+  std::getline(in, line), std::getline(in, line);
+  for (int i = 0; i < 8; ++i) std::getline(in, line), points += line + "\n";
+  while (in >> line) {
+    std::uint32_t a = 0, b = 0, c = 0;
+    in >> a >> b >> c;
+    facets += "3 " + std::to_string(a + 8) + " " + std::to_string(b + 8) + " " + std::to_string(c + 8) + "\n";
+  }
+  both.insert(both.find("\n3 ") + 1, points);
+  write("both.off", both + facets);
+  EXPECT_NEAR(import("both.off").at("certificate").at("volume").get<double>(), 63, 1e-12);
+  EXPECT_NEAR(import("both.off", {"--inside", "1,1,1"}).at("certificate").at("volume").get<double>(), 1,
+              1e-12);
+  EXPECT_NEAR(import("both.off", {"--inside", "3,3,3"}).at("certificate").at("volume").get<double>(), 63,
+              1e-12);
 }
 
 TEST_F(Import, FillsAPlanarDomainWithHoles) {

@@ -41,7 +41,8 @@ Surface_soup box_around(const Facets& surface) {
   return box;
 }
 
-/// Regions of smaller tetrahedra are slivers between almost equal triangles, whose winding numbers say little.
+/// Regions of smaller tetrahedra are slivers between almost equal triangles, whose winding numbers say
+/// little.
 constexpr double sliver = 1e-15;
 constexpr double leak = 0.01;
 

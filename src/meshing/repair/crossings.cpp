@@ -106,8 +106,8 @@ class Cut_triangle {
     }
   }
 
-  /// A triangle whose corners are moved into this one's plane along its axis, if they are within a distance of
-  /// it. None are if all are and it would have no area.
+  /// A triangle whose corners are moved into this one's plane along its axis, if they are within a distance
+  /// of it. None are if all are and it would have no area.
   E::Triangle_3 snapped(const E::Triangle_3& other, double distance) const {
     std::array<E::Point_3, 3> p{other[0], other[1], other[2]};
     for (E::Point_3& q : p) {
