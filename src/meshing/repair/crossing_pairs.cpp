@@ -27,12 +27,14 @@ class Crossing {
       in_t[i] == 3 ? in_t[i] = -1 : ++common;
     }
     if (common == 3) return false;
-    if (common == 0) return CGAL::do_intersect(triangle(s), triangle(t));
+    if (common == 0) return K().do_intersect_3_object()(triangle(s), triangle(t));
     if (common == 1) {
       const int i = in_t[0] >= 0 ? 0 : in_t[1] >= 0 ? 1 : 2;
       const int j = in_t[i];
-      return CGAL::do_intersect(K::Segment_3(point(s[(i + 1) % 3]), point(s[(i + 2) % 3])), triangle(t)) ||
-             CGAL::do_intersect(K::Segment_3(point(t[(j + 1) % 3]), point(t[(j + 2) % 3])), triangle(s));
+      return K().do_intersect_3_object()(K::Segment_3(point(s[(i + 1) % 3]), point(s[(i + 2) % 3])),
+                                         triangle(t)) ||
+             K().do_intersect_3_object()(K::Segment_3(point(t[(j + 1) % 3]), point(t[(j + 2) % 3])),
+                                         triangle(s));
     }
     // A common edge: they overlap if they lie in a plane, on the same side of it.
     const int i = in_t[0] < 0 ? 0 : in_t[1] < 0 ? 1 : 2;
@@ -40,8 +42,9 @@ class Crossing {
     std::uint32_t apex = t[0];
     for (const std::uint32_t v : t)
       if (v != a && v != b) apex = v;
-    return CGAL::orientation(point(a), point(b), point(s[i]), point(apex)) == CGAL::COPLANAR &&
-           CGAL::coplanar_orientation(point(a), point(b), point(s[i]), point(apex)) == CGAL::POSITIVE;
+    return K().coplanar_3_object()(point(a), point(b), point(s[i]), point(apex)) &&
+           K().coplanar_orientation_3_object()(point(a), point(b), point(s[i]), point(apex)) ==
+               CGAL::POSITIVE;
   }
 
  private:

@@ -69,8 +69,8 @@ class Cut_triangle {
     for (int k = 1; k < 3; ++k)
       if (std::abs(normal[k]) > std::abs(normal[axis_])) axis_ = k;
     for (int i = 0; i < 3; ++i) corner_[i] = parts_.insert(seen(triangle[i]));
-    is_turned_ =
-        CGAL::orientation(corner_[0]->point(), corner_[1]->point(), corner_[2]->point()) == CGAL::CLOCKWISE;
+    is_turned_ = E().orientation_2_object()(corner_[0]->point(), corner_[1]->point(), corner_[2]->point()) ==
+                 CGAL::CLOCKWISE;
   }
 
   void insert(const Trace& trace) {
@@ -86,7 +86,7 @@ class Cut_triangle {
     for (auto v = parts_.finite_vertices_begin(); v != parts_.finite_vertices_end(); ++v) {
       if (is_corner(v)) continue;
       for (int k = 0; k < 3; ++k)
-        if (CGAL::collinear(corner_[k]->point(), v->point(), corner_[(k + 1) % 3]->point()))
+        if (E().collinear_2_object()(corner_[k]->point(), v->point(), corner_[(k + 1) % 3]->point()))
           visit(k, lifted(v->point()));
     }
   }
@@ -114,7 +114,7 @@ class Cut_triangle {
       const E::Point_3 on_plane = lifted(seen(q));
       if (std::abs(CGAL::to_double(on_plane[axis_] - q[axis_])) <= distance) q = on_plane;
     }
-    return CGAL::collinear(p[0], p[1], p[2]) ? other : E::Triangle_3(p[0], p[1], p[2]);
+    return E().collinear_3_object()(p[0], p[1], p[2]) ? other : E::Triangle_3(p[0], p[1], p[2]);
   }
 
  private:
