@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk import MESH -o ENV.ovm: converts any mesh to a certified environment, and reports every change.
 #include <cellwalk/internal/loading/environment_writer.h>
+#include <cellwalk/internal/loading/mesher.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "cli/common/environment_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
+#include "cli/repair_options.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -62,62 +64,6 @@ void add_mesher_options(CLI::App& command, Mesher_options& options, double& tiss
       ->type_name("SECONDS");
   command.add_flag("--keep-obstacles", options.keep_obstacles,
                    "Keep the inside of obstacles and holes as solid cells");
-}
-
-/// Reads "X,Y,Z".
-Point<3> point_of(const std::string& text) {
-  Point<3> p;
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
-    const std::string number = text.substr(begin, end == std::string::npos ? end : end - begin);
-    if (end == std::string::npos || !CLI::detail::lexical_cast(number, p[k]) || !is_finite(p))
-      throw Error(Error_code::usage,
-                  fmt::format("--inside: '{}' is neither auto, solid, nor a point X,Y,Z", text));
-    begin = end + 1;
-  }
-  return p;
-}
-
-/// Adds the options of surfaces with defects.
-void add_repair_options(CLI::App& command, Mesher_options& options) {
-  if (!mesher_parts().meshing) return;
-  CLI::Option* const strict = command.add_flag(
-      "--strict", options.is_strict,
-      "Refuse surfaces that are open, not manifold or cross themselves, and cells that do not conform");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--inside",
-          [&options](const std::vector<std::string>& values) {
-            for (const std::string& value : values) {
-              if (value == "solid")
-                options.repair.is_solid = true;
-              else if (value != "auto")
-                options.repair.inside.push_back(point_of(value));
-            }
-          },
-          "The free space: auto: what the surface encloses, or the lumen of a thick wall; solid: always what "
-          "it encloses; a point: the space around it, up to the narrowest places on the ways out. Several "
-          "points for one space")
-      ->allow_extra_args(false)
-      ->excludes(strict)
-      ->default_str("auto")
-      ->type_name("auto|solid|X,Y,Z");
-  const auto part = [&](const char* name, double& value, const char* what) {
-    command.add_option(name, value, what)
-        ->check(number_from(0, "of at least 0"))
-        ->excludes(strict)
-        ->type_name("REL")
-        ->capture_default_str();
-  };
-  part("--seam", options.repair.seam, "Join points of borders nearer than this part of the surface's size");
-  part("--weld", options.repair.weld,
-       "Join any points nearer than this part of the size, if no mesher takes them apart; 0: never");
-  part("--max-move", options.repair.max_move,
-       "Refuse a surface whose walls would lie farther from it than this part of its size");
-  add_choice(command, "--sheets", options.repair.sheets,
-             {{"keep", Sheets::keep}, {"open", Sheets::open}, {"refuse", Sheets::refuse}},
-             "Facets inside, or given on both sides: membranes, nothing, or a reason to refuse the surface");
 }
 
 /// Adds the option for cells that do not conform.
@@ -197,7 +143,7 @@ void add_import(CLI::App& app, Action& chosen) {
                    "A closed surface inside; may be given several times")
       ->type_name("MESH2");
   add_mesher_options(*command, options->import.mesher, options->import.tissue);
-  add_repair_options(*command, options->import.mesher);
+  add_repair_options(*command, options->import);
   CLI::Option* const no_split = command->add_flag(
       "--no-split", options->no_split, "Refuse cells that are not exactly convex instead of splitting");
   command

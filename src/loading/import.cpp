@@ -10,6 +10,8 @@
 
 #include <fmt/core.h>
 
+#include <limits>
+
 #include "compiled_file.h"
 
 namespace cellwalk {
@@ -96,8 +98,37 @@ class Import {
     return obstacles;
   }
 
+  /// Gives caps and mouths the names that are wanted.
+  template <int D>
+  void name_parts(Meshed<D>& meshed) const {
+    for (const auto& [name, place] : options_.names) {
+      nlohmann::ordered_json* nearest = nullptr;
+      double least = std::numeric_limits<double>::infinity();
+      for (auto& part : meshed.repaired["parts"]) {
+        const double distance = length(part["centre"].template get<Point<3>>() - place);
+        if (part.contains("edges") && part["edges"] != 0 && distance < least)
+          least = distance, nearest = &part;
+      }
+      if (nearest == nullptr)
+        throw Error(Error_code::usage, "--names: the surface has no caps and no mouths to name");
+      const auto old = (*nearest)["name"].template get<std::string>();
+      if (options_.names.contains(old))
+        throw Error(Error_code::usage,
+                    fmt::format("--names: {} and {} are nearest to the same cap or mouth, of width {}", old,
+                                name, rounded((*nearest)["width"].template get<double>())));
+      if (meshed.groups.contains(name))
+        throw Error(Error_code::usage, fmt::format("--names: {} is the name of another part", name));
+      (*nearest)["name"] = name;
+      auto group = meshed.groups.extract(old);
+      group.key() = name;
+      meshed.groups.insert(std::move(group));
+      meshed.repairs.push_back(fmt::format("{} is named {}", old, name));
+    }
+  }
+
   template <int D>
   Imported_environment build_meshed(Meshed<D> meshed) {
+    name_parts(meshed);
     if (!meshed.repairs.empty()) {
       report_.stages.push_back({"repaired", std::move(meshed.repairs)});
       report_.json["repaired"] = std::move(meshed.repaired);

@@ -265,6 +265,23 @@ TEST_F(Import, CapsAnOpenSurfaceUnlessItIsStrict) {
   EXPECT_NE(said_.find("  repaired    cap_1: 3 edges, area 0.5"), std::string::npos) << said_;
 }
 
+TEST_F(Import, NamesCapsByTheirPlaces) {
+  // Both ends of a box of 4 quadrangles.
+  write("duct.off",
+        "OFF\n8 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 3\n1 0 3\n1 1 3\n0 1 3\n"
+        "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  write("names.json", R"({"outlet": [0, 0, 9], "inlet": [0, 0, -1]})");
+  const auto report = import("duct.off", {"--names", "names.json"});
+  EXPECT_EQ(report.at("certificate").at("volume"), 3);
+  for (const auto& part : report.at("repaired").at("parts"))
+    EXPECT_EQ(part.at("name"), part.at("centre")[2] == 3 ? "outlet" : "inlet");
+  EXPECT_NE(text("env.ovm").find("group inlet"), std::string::npos);
+  EXPECT_EQ(text("env.ovm").find("group cap"), std::string::npos);
+  write("same.json", R"({"outlet": [0, 0, 9], "inlet": [0, 0, 8]})");
+  expect_failure(2, {"import", "duct.off", "-o", "out.ovm", "--names", "same.json"},
+                 {"inlet and outlet are nearest to the same cap or mouth"});
+}
+
 /// What is accepted as it is gives the same cells with and without repairs.
 TEST_F(Import, RepairsNothingThatIsSound) {
   write("cube.off", cube_off());

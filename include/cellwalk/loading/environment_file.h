@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,6 +112,8 @@ struct Import_options {
   std::optional<double> conform = 0;
   /// If not 0: 3D cells are surrounded by solid ones up to a box at this distance, see surround_by_tissue().
   double tissue = 0;
+  /// Names of caps and mouths: each goes to the one whose centre is the nearest to the point.
+  std::map<std::string, Point<3>> names{};
   /// Called before each stage of long work with its description, such as "reading part.off".
   std::function<void(const std::string&)> on_stage{};
 };

@@ -69,8 +69,7 @@ class Cut_triangle {
     for (int k = 1; k < 3; ++k)
       if (std::abs(normal[k]) > std::abs(normal[axis_])) axis_ = k;
     for (int i = 0; i < 3; ++i) corner_[i] = parts_.insert(seen(triangle[i]));
-    is_turned_ = E().orientation_2_object()(corner_[0]->point(), corner_[1]->point(), corner_[2]->point()) ==
-                 CGAL::CLOCKWISE;
+    is_turned_ = !E().left_turn_2_object()(corner_[0]->point(), corner_[1]->point(), corner_[2]->point());
   }
 
   void insert(const Trace& trace) {
