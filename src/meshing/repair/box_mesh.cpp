@@ -2,8 +2,11 @@
 // The call of TetGen with a box of odd proportions, and floods across facets that are no triangles.
 #include "box_mesh.h"
 
+#include <cellwalk/internal/kernel/random.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "changes.h"
@@ -46,6 +49,48 @@ Surface_soup box_around(const Facets& surface) {
 constexpr double sliver = 1e-15;
 constexpr double leak = 0.01;
 
+/// Where TetGen fails, it may succeed with the points in another order. So many are tried.
+constexpr std::uint64_t further_orders = 2;
+
+/// Tetrahedra by TetGen, which gets the points in some order.
+/// \param order the number of each of its points
+Tetgen_result mesh_in_order(const Facets& surface, const std::vector<std::uint32_t>& order, Frame frame,
+                            const Tetrahedralize_options& options, std::string& tolerance) {
+  std::vector<std::uint32_t> place(order.size());
+  std::vector<Surface_soup> surfaces(1);
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    surfaces[0].points.push_back(surface.points[order[i]]);
+  }
+  for (const auto& [triangle, facet] : labels_of(surface.facets)) {
+    const Triangle& t = facet.corners;
+    surfaces[0].facets.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  }
+  std::sort(surfaces[0].facets.begin(), surfaces[0].facets.end());  // whatever the order of the labels
+  Feature_names names;
+  names.add("the surface", {}, order.size(), {}, surfaces[0].facets.size());
+  if (frame == Frame::box) {
+    surfaces.push_back(box_around(surface));
+    names.add("the box", {}, 8, {}, 12);
+  }
+  const Owners owners = owners_of(surfaces);
+  Tetgen_result result;
+  tolerance = mesh_by_tetgen(surfaces, names, options, [&](const Tetgen_result& mesh) {
+    check_kept(mesh, surfaces, owners, names);
+    result = mesh;
+    for (auto& t : result.tetrahedra) t = positive(mesh, t);
+    // Neighbours lie opposite the corners, two of which may have changed places.
+    for (std::size_t t = 0; t < result.tetrahedra.size(); ++t)
+      if (result.tetrahedra[t] != mesh.tetrahedra[t])
+        std::swap(result.neighbours[t][0], result.neighbours[t][1]);
+  });
+  std::copy(surface.points.begin(), surface.points.end(), result.points.begin());
+  for (auto& t : result.tetrahedra)
+    for (std::uint32_t& v : t)
+      if (v < order.size()) v = order[v];
+  return result;
+}
+
 }  // namespace
 
 Labels labels_of(const std::vector<Facet>& facets) {
@@ -78,29 +123,19 @@ void compact(Facets& surface) {
 
 Tetgen_result mesh_between(const Facets& surface, Frame frame, const Tetrahedralize_options& options,
                            std::string& tolerance) {
-  std::vector<Surface_soup> surfaces(1);
-  surfaces[0].points = surface.points;
-  for (const auto& [triangle, facet] : labels_of(surface.facets))
-    surfaces[0].facets.push_back({facet.corners[0], facet.corners[1], facet.corners[2]});
-  std::sort(surfaces[0].facets.begin(), surfaces[0].facets.end());  // whatever the order of the labels
-  Feature_names names;
-  names.add("the surface", {}, surface.points.size(), {}, surfaces[0].facets.size());
-  if (frame == Frame::box) {
-    surfaces.push_back(box_around(surface));
-    names.add("the box", {}, 8, {}, 12);
+  std::vector<std::uint32_t> order(surface.points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::string first_problem;
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    try {
+      return mesh_in_order(surface, order, frame, options, tolerance);
+    } catch (const Error& error) {
+      if (error.code() != Error_code::not_certified) throw;
+      if (first_problem.empty()) first_problem = error.what();
+      if (attempt == further_orders) throw Error(Error_code::not_certified, first_problem);
+      Random(attempt + 1).shuffle(order);
+    }
   }
-  const Owners owners = owners_of(surfaces);
-  Tetgen_result result;
-  tolerance = mesh_by_tetgen(surfaces, names, options, [&](const Tetgen_result& mesh) {
-    check_kept(mesh, surfaces, owners, names);
-    result = mesh;
-    for (auto& t : result.tetrahedra) t = positive(mesh, t);
-    // Neighbours lie opposite the corners, two of which may have changed places.
-    for (std::size_t t = 0; t < result.tetrahedra.size(); ++t)
-      if (result.tetrahedra[t] != mesh.tetrahedra[t])
-        std::swap(result.neighbours[t][0], result.neighbours[t][1]);
-  });
-  return result;
 }
 
 double volume_of(const Tetgen_result& mesh, std::uint32_t tetrahedron) {
