@@ -112,6 +112,7 @@ class Import {
       if (nearest == nullptr)
         throw Error(Error_code::usage, "--names: the surface has no caps and no mouths to name");
       const auto old = (*nearest)["name"].template get<std::string>();
+      if (old == name) continue;
       if (options_.names.contains(old))
         throw Error(Error_code::usage,
                     fmt::format("--names: {} and {} are nearest to the same cap or mouth, of width {}", old,

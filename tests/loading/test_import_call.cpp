@@ -161,10 +161,10 @@ TEST_F(ImportCalls, TakeEveryOption) {
 
 TEST_F(ImportCalls, RefuseOptionsThatAreNone) {
   call_.options = {{"qualty", 2.0}};
-  EXPECT_EQ(
-      refused(),
-      "qualty: unknown key; known here: cell_size, distance, duplicates, import, keep_obstacles, mesher, "
-      "obstacle, quality, simplicial, split, time_limit, tissue");
+  EXPECT_EQ(refused(),
+            "qualty: unknown key; known here: cell_size, conform, distance, duplicates, import, inside, "
+            "keep_obstacles, max_move, mesher, obstacle, quality, seam, sheets, simplicial, split, strict, "
+            "time_limit, tissue, weld");
   call_.options = {{"quality", -1.0}};
   EXPECT_EQ(refused(), "quality: expected a number of at least 0");
   call_.options = {{"mesher", std::string("gmsh")}};
