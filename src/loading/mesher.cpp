@@ -135,8 +135,10 @@ Meshed<3> with_repair(const Surface_soup& surface, const Mesher_options& options
     if (listed++ < most_parts_listed) meshed.repairs.push_back(describe(part, report));
   if (listed > most_parts_listed)
     meshed.repairs.push_back(fmt::format("and {} smaller ones", listed - most_parts_listed));
-  meshed.repairs.push_back(fmt::format("walls lie within {:.2g} of the surface, {:.1g} of its size",
-                                       report.moved * report.size, report.moved));
+  meshed.repairs.push_back(report.moved == 0
+                               ? "walls lie on the surface"
+                               : fmt::format("walls lie within {:.2g} of the surface, {:.1g} of its size",
+                                             report.moved * report.size, report.moved));
   meshed.repaired = to_json(report);
   add_cells(report, report.walls, tetgen, meshed);
   add_tolerance(report.tolerance, meshed);
