@@ -131,7 +131,7 @@ class Repair {
   void refuse_nothing() const {
     refuse_surface(fmt::format("encloses nothing{}; give a closed or open hollow surface",
                                caps_.empty() ? ""
-                                             : fmt::format(": its {} bound flat parts only",
+                                             : fmt::format(": {} around flat parts only",
                                                            counted(caps_.size(), "border", "borders"))));
   }
 
