@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "mesher_input.h"
 #include "meshing/child/run_helper.h"
-#include "narrow_place.h"
-#include "scale.h"
-#include "sizes.h"
-#include "surface_mesh.h"
+#include "meshing/fill/mesher_input.h"
+#include "meshing/fill/narrow_place.h"
+#include "meshing/fill/scale.h"
+#include "meshing/fill/sizes.h"
+#include "meshing/fill/surface_mesh.h"
 
 namespace cellwalk {
 namespace {

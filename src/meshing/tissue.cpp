@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "tetgen_bounds.h"
-#include "tetgen_call.h"
-#include "tetgen_sides.h"
+#include "meshing/fill/tetgen_bounds.h"
+#include "meshing/fill/tetgen_call.h"
+#include "meshing/fill/tetgen_sides.h"
 
 namespace cellwalk {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "fuzz/decoder.h"
 #include "fuzz/targets.h"
-#include "meshing/narrow_place.h"
+#include "meshing/fill/narrow_place.h"
 #include "meshing/shapes.h"
 
 namespace cellwalk::fuzz {

@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "meshing/narrow_place.h"
+#include "meshing/fill/narrow_place.h"
 #include "meshing/shapes.h"
 #include "meshing/traces.h"
 

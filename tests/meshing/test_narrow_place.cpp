@@ -12,7 +12,7 @@
 #include <limits>
 #include <set>
 
-#include "meshing/narrow_place.h"
+#include "meshing/fill/narrow_place.h"
 #include "meshing/odd_surfaces.h"
 
 namespace cellwalk {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "facets.h"
-#include "meshing/tetgen_call.h"
+#include "meshing/fill/tetgen_call.h"
 
 namespace cellwalk::detail {
 

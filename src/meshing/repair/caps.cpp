@@ -13,7 +13,7 @@
 
 #include "changes.h"
 #include "edges.h"
-#include "meshing/surface_topology.h"
+#include "meshing/fill/surface_topology.h"
 
 namespace cellwalk::detail {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "meshing/narrow_place.h"
+#include "meshing/fill/narrow_place.h"
 
 namespace cellwalk::detail {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "meshing/tetgen_sides.h"
+#include "meshing/fill/tetgen_sides.h"
 
 namespace cellwalk::detail {
 

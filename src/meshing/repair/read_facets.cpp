@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "meshing/surface_topology.h"
+#include "meshing/fill/surface_topology.h"
 #include "tidy.h"
 
 namespace cellwalk::detail {

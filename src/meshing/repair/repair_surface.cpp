@@ -15,7 +15,7 @@
 #include "edges.h"
 #include "facets.h"
 #include "free_cells.h"
-#include "meshing/tetgen_bounds.h"
+#include "meshing/fill/tetgen_bounds.h"
 #include "near_points.h"
 #include "parts.h"
 #include "patches.h"

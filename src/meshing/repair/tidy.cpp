@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "edges.h"
-#include "meshing/surface_topology.h"
+#include "meshing/fill/surface_topology.h"
 
 namespace cellwalk::detail {
 namespace {

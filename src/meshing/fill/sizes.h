@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sizes of cells, and the refusal of those at which meshing would not end.
-#ifndef CELLWALK_MESHING_SIZES_H
-#define CELLWALK_MESHING_SIZES_H
+#ifndef CELLWALK_MESHING_FILL_SIZES_H
+#define CELLWALK_MESHING_FILL_SIZES_H
 
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/meshing/tetrahedralize.h>
@@ -48,4 +48,4 @@ inline double free_volume(const Surface_report& surface, const std::vector<Surfa
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_SIZES_H
+#endif  // CELLWALK_MESHING_FILL_SIZES_H

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of extreme size, which meshers get at a size near 1: products of coordinates would leave the range
 // of doubles. The factor is a power of two, so that nothing is rounded.
-#ifndef CELLWALK_MESHING_SCALE_H
-#define CELLWALK_MESHING_SCALE_H
+#ifndef CELLWALK_MESHING_FILL_SCALE_H
+#define CELLWALK_MESHING_FILL_SCALE_H
 
 #include <cellwalk/records/surface_soup.h>
 
@@ -45,4 +45,4 @@ inline int scale_of(const std::vector<Surface_soup>& surfaces) {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_SCALE_H
+#endif  // CELLWALK_MESHING_FILL_SCALE_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The test that TetGen preserved surfaces, and the surfaces that enclose each tetrahedron.
-#ifndef CELLWALK_MESHING_TETGEN_SIDES_H
-#define CELLWALK_MESHING_TETGEN_SIDES_H
+#ifndef CELLWALK_MESHING_FILL_TETGEN_SIDES_H
+#define CELLWALK_MESHING_FILL_TETGEN_SIDES_H
 
 #include <array>
 #include <cstddef>
@@ -65,4 +65,4 @@ class Sides {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_TETGEN_SIDES_H
+#endif  // CELLWALK_MESHING_FILL_TETGEN_SIDES_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces as helper programs take them.
-#ifndef CELLWALK_MESHING_MESHER_INPUT_H
-#define CELLWALK_MESHING_MESHER_INPUT_H
+#ifndef CELLWALK_MESHING_FILL_MESHER_INPUT_H
+#define CELLWALK_MESHING_FILL_MESHER_INPUT_H
 
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/records/surface_soup.h>
@@ -37,4 +37,4 @@ inline Mesher_input mesher_input(const std::vector<Surface_soup>& surfaces, int 
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_MESHER_INPUT_H
+#endif  // CELLWALK_MESHING_FILL_MESHER_INPUT_H

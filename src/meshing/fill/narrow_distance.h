@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The distance of two triangles that may share corners: rounded, to be shown.
-#ifndef CELLWALK_MESHING_NARROW_DISTANCE_H
-#define CELLWALK_MESHING_NARROW_DISTANCE_H
+#ifndef CELLWALK_MESHING_FILL_NARROW_DISTANCE_H
+#define CELLWALK_MESHING_FILL_NARROW_DISTANCE_H
 
 #include <cellwalk/kernel/point.h>
 
@@ -30,4 +30,4 @@ Near_triangles distance_of(const Triangle_corners& a, const Triangle_corners& b,
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_NARROW_DISTANCE_H
+#endif  // CELLWALK_MESHING_FILL_NARROW_DISTANCE_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The names of the vertices and facets of surfaces in messages: their numbers in the input.
-#ifndef CELLWALK_MESHING_FEATURE_NAMES_H
-#define CELLWALK_MESHING_FEATURE_NAMES_H
+#ifndef CELLWALK_MESHING_FILL_FEATURE_NAMES_H
+#define CELLWALK_MESHING_FILL_FEATURE_NAMES_H
 
 #include <cstdint>
 #include <string>
@@ -69,4 +69,4 @@ class Feature_names {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_FEATURE_NAMES_H
+#endif  // CELLWALK_MESHING_FILL_FEATURE_NAMES_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The narrowest places of surfaces, where meshers fail.
-#ifndef CELLWALK_MESHING_NARROW_PLACE_H
-#define CELLWALK_MESHING_NARROW_PLACE_H
+#ifndef CELLWALK_MESHING_FILL_NARROW_PLACE_H
+#define CELLWALK_MESHING_FILL_NARROW_PLACE_H
 
 #include <cellwalk/records/surface_soup.h>
 
@@ -36,4 +36,4 @@ std::string describe(const Point<3>& point);
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_NARROW_PLACE_H
+#endif  // CELLWALK_MESHING_FILL_NARROW_PLACE_H

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The combinatorial half of checking a surface: points, edges, orientation. Not by CGAL's
 // orient_polygon_soup(), which duplicates points of surfaces that are not manifold instead of refusing them.
-#ifndef CELLWALK_MESHING_SURFACE_TOPOLOGY_H
-#define CELLWALK_MESHING_SURFACE_TOPOLOGY_H
+#ifndef CELLWALK_MESHING_FILL_SURFACE_TOPOLOGY_H
+#define CELLWALK_MESHING_FILL_SURFACE_TOPOLOGY_H
 
 #include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/records/surface_soup.h>
@@ -34,4 +34,4 @@ void make_oriented_manifold(Traced_surface& surface, const std::string& name, Su
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_SURFACE_TOPOLOGY_H
+#endif  // CELLWALK_MESHING_FILL_SURFACE_TOPOLOGY_H

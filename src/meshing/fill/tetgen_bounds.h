@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bounds of quality and size that TetGen is given.
-#ifndef CELLWALK_MESHING_TETGEN_BOUNDS_H
-#define CELLWALK_MESHING_TETGEN_BOUNDS_H
+#ifndef CELLWALK_MESHING_FILL_TETGEN_BOUNDS_H
+#define CELLWALK_MESHING_FILL_TETGEN_BOUNDS_H
 
 #include <cellwalk/meshing/tetrahedralize.h>
 
@@ -25,4 +25,4 @@ bool is_out_of_bounds(const Tetgen_result& mesh, const std::array<std::uint32_t,
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_TETGEN_BOUNDS_H
+#endif  // CELLWALK_MESHING_FILL_TETGEN_BOUNDS_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A plain interface of TetGen.
-#ifndef CELLWALK_MESHING_TETGEN_CALL_H
-#define CELLWALK_MESHING_TETGEN_CALL_H
+#ifndef CELLWALK_MESHING_FILL_TETGEN_CALL_H
+#define CELLWALK_MESHING_FILL_TETGEN_CALL_H
 
 #include <cellwalk/meshing/tetrahedralize.h>
 
@@ -36,4 +36,4 @@ std::string mesh_by_tetgen(const std::vector<Surface_soup>& surfaces, const Feat
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_TETGEN_CALL_H
+#endif  // CELLWALK_MESHING_FILL_TETGEN_CALL_H

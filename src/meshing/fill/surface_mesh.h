@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces as CGAL's mesh, shared by the sources of this component.
-#ifndef CELLWALK_MESHING_SURFACE_MESH_H
-#define CELLWALK_MESHING_SURFACE_MESH_H
+#ifndef CELLWALK_MESHING_FILL_SURFACE_MESH_H
+#define CELLWALK_MESHING_FILL_SURFACE_MESH_H
 
 #include <cellwalk/meshing/tetrahedralize.h>
 #include <cellwalk/records/surface_soup.h>
@@ -46,4 +46,4 @@ Checked_surfaces check_apart(const Surface_soup& surface, const std::vector<Surf
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_MESHING_SURFACE_MESH_H
+#endif  // CELLWALK_MESHING_FILL_SURFACE_MESH_H
