@@ -28,6 +28,8 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 using Side = std::pair<std::uint32_t, std::uint32_t>;  // of a triangle: its ends, ascending
 
 constexpr int most_rounds = 12;
+/// Later rounds have far fewer pairs than the first one, unless rounded parts cross more and more.
+constexpr std::size_t most_growth = 4;
 /// Corners are in a plane within this part of the distance at which points are joined, so that the points in
 /// which two triangles see the same place become one.
 constexpr double part_of_joined = 0.01;
@@ -276,12 +278,13 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
     // The first round comes before: the sides of the file are split only where that does not suffice.
     if (result.rounds > 0 && split_sides(surface, pairs, apart)) leave_out();
     if (pairs.empty()) break;
-    if (result.rounds++ == most_rounds)
-      refuse_surface(
-          fmt::format("crosses itself: {} still cross after {} rounds of cuts, the first at {}; "
-                      "repair it there",
-                      counted(pairs.size(), "pair of facets", "pairs of facets"), most_rounds,
-                      describe(centre(surface, surface.facets[pairs[0].first]))));
+    const bool explodes = pairs.size() > most_growth * result.pairs.count + most_rounds;
+    if (explodes || result.rounds++ == most_rounds)
+      refuse_surface(fmt::format(
+          "crosses itself: {} still cross after {} rounds of cuts, the first at {}; "
+          "repair it there",
+          counted(pairs.size(), "pair of facets", "pairs of facets"), std::min(result.rounds, most_rounds),
+          describe(centre(surface, surface.facets[pairs[0].first]))));
     between();
     Round(surface, apart).cut(pairs);
     const Found joined = weld(surface, joined_within, false);
