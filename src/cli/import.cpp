@@ -15,13 +15,14 @@
 #include "cli/common/environment_file.h"
 #include "cli/common/outputs.h"
 #include "cli/common/progress.h"
+#include "cli/import_picture.h"
 #include "cli/repair_options.h"
 
 namespace cellwalk::cli {
 namespace {
 
 struct Options {
-  std::string mesh, environment, json;
+  std::string mesh, environment, json, picture;
   bool no_split = false;
   double edge_length = 0;
   Import_options import;
@@ -105,7 +106,11 @@ void import(Options& options) {
   Outputs outputs(inputs);
   io::Atomic_file* const file = outputs.file(options.environment);
   io::Atomic_file* const json = outputs.file(options.json);
+  io::Atomic_file* const picture = outputs.file(options.picture);
   options.import.build.split = !options.no_split;
+  Surface_soup surface;
+  if (picture != nullptr)
+    options.import.on_surface = [&surface](const Surface_soup& read) { surface = read; };
   std::optional<Progress> progress;
   options.import.on_stage = [&progress](const std::string& stage) {
     progress.reset();
@@ -116,6 +121,9 @@ void import(Options& options) {
       [&]<int D>(Environment<D>& environment) {
         write_environment<D>(*file, environment, imported.built.certificate,
                              std::get<Groups<D>>(imported.groups));
+        if (picture != nullptr)
+          write_picture<D>(*picture, surface, environment.snapshot(), std::get<Groups<D>>(imported.groups),
+                           imported.report.json);
         const Edge_cells edges = count_edge_cells(environment.snapshot(), {.length = options.edge_length});
         progress.reset();
         imported.report.json["edge_cells"] = to_json(edges);
@@ -154,11 +162,18 @@ void add_import(CLI::App& app, Action& chosen) {
   add_conform(*command, options->import.conform);
   add_edge_length(*command, options->edge_length);
   add_json(*command, options->json);
+  command
+      ->add_option(
+          "--picture", options->picture,
+          "Draw the surface as it is given, and what became of it: walls, caps and other groups with "
+          "their names, and the places of repairs")
+      ->type_name("OUT.png");
   add_examples(
       *command,
       {"cellwalk import vessel.stl -o vessel.ovm", "cellwalk import vessel.stl --cell-size 0.5 -o fine.ovm",
        "cellwalk import hull.off --obstacle rock.off --mesher mesh3 --cell-size 0.2 -o hull.ovm",
        "cellwalk import aneurysm.stl --mesher mesh3 --tissue 2 -o beating.ovm",
+       "cellwalk import aorta.obj -o aorta.ovm --picture aorta.png",
        "cellwalk import floor.wkt -o floor.ovm --json report.json",
        "cellwalk import blocks.vtk --conform 1e-9 -o blocks.ovm",
        "cellwalk import vessel.ovm -o vessel.cellwalk"});

@@ -108,9 +108,17 @@ void draw_walls(Drawing& drawing, const Snapshot<2>& snapshot, const Wall_materi
 }
 
 void draw_walls(Drawing& drawing, const Snapshot<3>& snapshot, const Wall_materials& m, double, double) {
+  draw_walls_but(drawing, snapshot, m, {});
+}
+
+void draw_walls_but(Drawing& drawing, const Snapshot<3>& snapshot, const Wall_materials& m,
+                    const std::unordered_set<Half_facet>& left_out) {
+  const auto is_left_out = [&](Half_facet h) {
+    return left_out.contains(h) || left_out.contains(snapshot.opposite(h));
+  };
   std::size_t triangles = 0;
   for_each_facet(snapshot, [&](Half_facet h, bool is_wall) {
-    if (is_wall) triangles += snapshot.loop(h).size() - 2;
+    if (is_wall && !is_left_out(h)) triangles += snapshot.loop(h).size() - 2;
   });
   const double share = share_of(triangles);
   double& opacity = drawing.materials[m.wall].colour.opacity;
@@ -119,7 +127,7 @@ void draw_walls(Drawing& drawing, const Snapshot<3>& snapshot, const Wall_materi
   std::unordered_map<std::uint32_t, std::uint32_t> number_of;  // of points in use
   std::vector<Loop> facets;
   for_each_facet(snapshot, [&](Half_facet h, bool is_wall) {
-    if (!is_wall || !is_among(share, to_index(h))) return;
+    if (!is_wall || is_left_out(h) || !is_among(share, to_index(h))) return;
     Loop loop = snapshot.loop(h);
     for (std::uint32_t& p : loop) {
       const auto [at, is_new] = number_of.try_emplace(p, static_cast<std::uint32_t>(points.size()));

@@ -39,6 +39,7 @@ class Import {
   Imported_environment run() {
     io::Mesh_file file = read(path_);
     if (const auto* surface = std::get_if<Surface_soup>(&file.mesh)) {
+      if (options_.on_surface) options_.on_surface(*surface);
       const std::vector<Surface_soup> obstacles = read_obstacles();
       begin("meshing " + path_);
       Mesher_options mesher = options_.mesher;

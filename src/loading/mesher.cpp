@@ -84,9 +84,11 @@ std::string place(const Point<3>& p) {
 }
 
 nlohmann::ordered_json to_json(const Repaired_part& part) {
-  return {{"name", part.name},     {"edges", part.edges},         {"facets", part.facets},
-          {"centre", part.centre}, {"normal", part.normal},       {"area", part.area},
-          {"width", part.width},   {"off_plane", part.off_plane}, {"doubt", part.doubt}};
+  return {{"name", part.name},           {"kind", part.name.substr(0, part.name.find('_'))},
+          {"edges", part.edges},         {"facets", part.facets},
+          {"centre", part.centre},       {"normal", part.normal},
+          {"area", part.area},           {"width", part.width},
+          {"off_plane", part.off_plane}, {"doubt", part.doubt}};
 }
 
 /// "cap_1: 24 edges, area 130, width 12.9, centre (..), normal (..), up to 3.5 off its plane: the volume

@@ -116,6 +116,8 @@ struct Import_options {
   std::map<std::string, Point<3>> names{};
   /// Called before each stage of long work with its description, such as "reading part.off".
   std::function<void(const std::string&)> on_stage{};
+  /// Called with a surface as it was read, before it is meshed.
+  std::function<void(const Surface_soup&)> on_surface{};
 };
 
 /// The report of an import, stage by stage. Nothing is repaired silently.

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <unordered_set>
 
 namespace cellwalk::drawing {
 
@@ -32,6 +33,11 @@ void draw_walls(Drawing& drawing, const Snapshot<2>& snapshot, const Wall_materi
                 double unit);
 void draw_walls(Drawing& drawing, const Snapshot<3>& snapshot, const Wall_materials& materials, double lines,
                 double unit);
+
+/// The same in 3D without some walls.
+/// \param left_out seen from either side
+void draw_walls_but(Drawing& drawing, const Snapshot<3>& snapshot, const Wall_materials& materials,
+                    const std::unordered_set<Half_facet>& left_out);
 
 }  // namespace cellwalk::drawing
 
