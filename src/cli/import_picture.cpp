@@ -4,7 +4,6 @@
 
 #include <cellwalk/internal/drawing/bodies.h>
 #include <cellwalk/internal/drawing/figure.h>
-#include <cellwalk/internal/io/vtu.h>
 #include <cellwalk/internal/kernel/box.h>
 
 #include <fmt/format.h>
@@ -12,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "import_picture_parts.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -36,47 +37,15 @@ constexpr std::size_t most_arrows = 30, most_names = 16;
 // Shares of the size of the drawing.
 constexpr double edge_size = 0.0022, arrow_length = 0.055, arrow_size = 0.0012, apart = 0.035,
                  name_distance = 0.012;
-constexpr int single_width = 1200, double_width = 800, shown_height = 640;  // pixels
-constexpr std::size_t longest_legend = 84;                                  // letters
-constexpr double letter_width = 8.5;                                        // pixels
-
-/// Text that the renderer can draw.
-std::string drawable(std::string text) {
-  for (char& c : text)
-    if (c < ' ' || c > '~') c = '?';
-  return text;
-}
+constexpr int single_width = 1200, double_width = 800;       // pixels
+constexpr double least_height = 0.4, largest_height = 0.85;  // of the width
+constexpr double letter_width = 13.5;                        // of names, pixels
+constexpr double step_turn = 0.45;                           // of arrows between steps, radians
+/// Steps that neither move nor add nor open anything at their places.
+constexpr const char* unmarked[] = {"bent", "turned"};
 
 std::string counted(std::size_t n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
-/// The facets of a group.
-struct Patch {
-  std::string name;
-  std::vector<std::vector<Point<3>>> facets;
-  Point<3> centre{};
-  Vector<3> normal{};  ///< out of the cells from which the facets are seen; times twice the area
-  double extent = 0;   ///< area, in 2D length
-};
-
-template <int D>
-Patch patch_of(const std::string& name, const Snapshot<D>& snapshot, const Selection<D>& group) {
-  Patch patch{name, {}};
-  Vector<3> sum{};
-  double corners = 0;
-  for (const Half_facet h : group.facets) {
-    std::vector<Point<3>>& facet = patch.facets.emplace_back();
-    for (const std::uint32_t p : snapshot.loop(h)) facet.push_back(io::in_space(snapshot.point(p)));
-    Vector<3> area{};
-    for (std::size_t i = 1; i + 1 < facet.size(); ++i)
-      area = area + cross(facet[i] - facet[0], facet[i + 1] - facet[0]);
-    patch.normal = patch.normal + area;
-    patch.extent += D == 2 ? length(facet[1] - facet[0]) : length(area) / 2;
-    for (const Point<3>& x : facet) sum = sum + x, ++corners;
-  }
-  if (corners != 0) patch.centre = (1 / corners) * sum;
-  return patch;
 }
 
 /// The part "repaired" of a report, or none.
@@ -92,57 +61,6 @@ const Kind* kind_of(const std::string& name, const Json& report) {
       for (const Kind& kind : kinds)
         if (part["name"] == name && part["kind"] == kind.key) return &kind;
   return nullptr;
-}
-
-/// Adds the surface and its edges of an odd number of facets; returns the number of these.
-std::size_t draw_given(Drawing& drawing, const Surface_soup& surface, double size) {
-  constexpr std::size_t most_facets = 300000;
-  std::map<Point<3>, std::uint32_t> numbers;  // readers keep equal points apart
-  std::vector<std::uint32_t> number;
-  for (const Point<3>& p : surface.points)
-    number.push_back(numbers.try_emplace(p, static_cast<std::uint32_t>(numbers.size())).first->second);
-  std::vector<Point<3>> points(numbers.size());
-  for (const auto& [p, i] : numbers) points[i] = p;
-  const double share =
-      static_cast<double>(most_facets) / static_cast<double>(std::max(most_facets, surface.facets.size()));
-  std::vector<std::vector<std::uint32_t>> facets;
-  std::map<std::array<std::uint32_t, 2>, std::size_t> uses;
-  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-    std::vector<std::uint32_t> loop;
-    for (const std::uint32_t p : surface.facets[f]) loop.push_back(number[p]);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-      if (a != b) ++uses[{a, b}];
-    }
-    if (loop.size() > 2 && is_among(share, f)) facets.push_back(std::move(loop));
-  }
-  add_surface(drawing, points, facets, drawing.add_material({given_colour}));
-  const std::uint32_t border = drawing.add_material({open_edge});
-  std::size_t open = 0;
-  drawing.sides = 6;
-  for (const auto& [edge, count] : uses)
-    if (count % 2 != 0 && ++open <= most_facets / 10)
-      add_tube(drawing, std::array{points[edge[0]], points[edge[1]]}, edge_size * size, border);
-  return open;
-}
-
-/// Places that lie apart from each other, the first ones.
-std::vector<Point<3>> spread(const Json& places, std::size_t most, double distance) {
-  std::vector<Point<3>> result;
-  for (const Json& place : places) {
-    const auto p = place.get<Point<3>>();
-    const bool is_near = std::any_of(result.begin(), result.end(),
-                                     [&](const Point<3>& q) { return length(p - q) < distance; });
-    if (!is_near && result.size() < most) result.push_back(p);
-  }
-  return result;
-}
-
-/// A change in words, without its place and explanations.
-std::string brief(const std::string& text) {
-  const std::string first =
-      text.substr(0, std::min({text.find(", the f"), text.find(", at ("), text.find(": ")}));
-  return first.size() <= longest_legend ? first : first.substr(0, longest_legend - 3) + "...";
 }
 
 /// One picture in the making.
@@ -174,7 +92,7 @@ class Import_picture {
   /// Beside it, in the same view.
   void add_surface(const Surface_soup& surface) {
     for (const Point<3>& x : surface.points) box_.extend(x);
-    const std::size_t open = draw_given(given_.drawing, surface, size());
+    const std::size_t open = draw_given(given_.drawing, surface, given_colour, open_edge, edge_size * size());
     given_.title = fmt::format("the surface given: {}", counted(surface.facets.size(), "facet", "facets"));
     legend_.insert(legend_.begin(), {Legend_entry::patch, given_colour, "surface given"});
     if (open != 0)
@@ -191,14 +109,16 @@ class Import_picture {
     result_.title = fmt::format("the environment: free {} {:.6g} in {}", D == 2 ? "area" : "volume",
                                 certificate["free_volume"].template get<double>(),
                                 counted(certificate["components"], "component", "components"));
+    const int width = given_.drawing.triangles.empty() ? single_width : double_width;
+    const double shape = frame(width);
     std::vector<Panel> panels;
     if (!given_.drawing.triangles.empty()) panels.push_back(std::move(given_));
     panels.push_back(std::move(result_));
     Figure_options options;
     options.camera = camera_;
     options.columns = panels.size();
-    options.panel_width = panels.size() == 1 ? single_width : double_width;
-    options.panel_height = shown_height;
+    options.panel_width = width;
+    options.panel_height = static_cast<int>(width * std::clamp(shape + 0.1, least_height, largest_height));
     options.legend_columns = 2;
     file.write(encode_png(make_figure(panels, legend_, options)));
   }
@@ -238,7 +158,7 @@ class Import_picture {
     for (const Patch& patch : patches_) {
       const Kind* kind = kind_of(patch.name, report_);
       const Colour& colour = kind == nullptr ? other_group : kind->colour;
-      const std::uint32_t material = drawing.add_material({colour, 0, D == 3});
+      const std::uint32_t material = drawing.add_material({colour, 0, false});
       for (const auto& facet : patch.facets) {
         if (D == 3)
           add_patch(drawing, facet, material);
@@ -246,6 +166,8 @@ class Import_picture {
           add_flat_line(drawing, {facet[0][0], facet[0][1]}, {facet[1][0], facet[1][1]},
                         4 * edge_size * size(), 1e-3 * size(), material);
       }
+      if (D == 3)  // so that a small one is seen, and one that is seen from the side
+        for (const auto& edge : border_of(patch)) add_tube(drawing, edge, edge_size * size(), material);
       if (++numbers[kind] <= most_names) name(patch);
     }
     for (const auto& [kind, n] : numbers)
@@ -271,29 +193,60 @@ class Import_picture {
     result_.labels.push_back(std::move(label));
   }
 
-  /// Arrows from outside to the places.
+  /// Arrows from outside to the places; those of each step come from a side of their own.
   void draw_changes(const Json& changes) {
-    std::size_t step = 0;
-    std::size_t steps = 0;
-    for (const Json& change : changes) steps += !change["places"].empty();
+    std::vector<const Json*> marked;
+    for (const Json& change : changes)
+      if (!change["places"].empty() && std::ranges::find(unmarked, change["step"]) == std::end(unmarked))
+        marked.push_back(&change);
+    const std::size_t most = most_arrows / std::max<std::size_t>(1, marked.size());
     const Point<3> middle = 0.5 * (box_.low + box_.high);
-    for (const Json& change : changes) {
-      const auto places =
-          spread(change["places"], std::max<std::size_t>(2, most_arrows / std::max<std::size_t>(1, steps)),
-                 apart * size());
-      if (places.empty()) continue;
-      const Colour& colour = step_colours[std::min(step++, std::size(step_colours) - 1)];
-      const std::uint32_t material = result_.drawing.add_material({colour, 0, true});
-      for (const Point<3>& p : places) {
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+      const Colour& colour = step_colours[std::min(i, std::size(step_colours) - 1)];
+      const std::uint32_t material = result_.drawing.add_material({colour});
+      const double angle = step_turn * (static_cast<double>(i) - static_cast<double>(marked.size() - 1) / 2);
+      for (const Point<3>& p :
+           spread((*marked[i])["places"], std::max<std::size_t>(2, most), apart * size())) {
         const Vector<3> out = p - middle;
-        const Vector<3> side = dot(out, right_) * right_ + dot(out, up_) * up_ + 0.3 * size() * up_;
+        const double x = dot(out, right_), y = dot(out, up_) + 0.3 * size();
+        const Vector<3> side = (std::cos(angle) * x - std::sin(angle) * y) * right_ +
+                               (std::sin(angle) * x + std::cos(angle) * y) * up_;
         const Vector<3> from = normalized(normalized(side, up_) + 0.5 * camera_.toward);
         add_arrow(result_.drawing, p + arrow_length * size() * from, -1.0 * from, arrow_length * size(),
                   arrow_size * size(), material);
       }
       legend_.push_back(
-          {Legend_entry::line, colour, drawable(brief(change["text"].template get<std::string>()))});
+          {Legend_entry::line, colour, in_brief((*marked[i])["text"].template get<std::string>())});
     }
+  }
+
+  /// Makes both drawings as large as what both show, with room for names on both sides; returns height by
+  /// width.
+  double frame(double width) {
+    cellwalk::detail::Box<3> seen;  // right, up, toward the eye
+    for (const Panel* panel : {&given_, &result_})
+      for (const Picture_triangle& t : panel->drawing.triangles)
+        for (const Point<3>& x : t.corners)
+          seen.extend(Point<3>{dot(x, right_), dot(x, up_), dot(x, camera_.toward)});
+    auto [low, high] = seen;
+    std::size_t letters = 0;
+    for (const Label& label : result_.labels) letters = std::max(letters, label.text.size());
+    const double share = std::min(0.25, (letter_width * static_cast<double>(letters) + 16) / width);
+    const double pad = letters == 0 ? 0 : share / (1 - 2 * share) * (high[0] - low[0]);
+    low[0] -= pad, high[0] += pad;
+    const Point<3> middle = 0.5 * (low + high);
+    for (Panel* panel : {&given_, &result_}) {
+      const std::uint32_t invisible = panel->drawing.add_material({{0, 0, 0, 0}});
+      if (panel->drawing.triangles.empty()) continue;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (const Point<3>& end : {low, high}) {
+          Point<3> x = middle;
+          x[i] = end[i];
+          const Point<3> p = x[0] * right_ + x[1] * up_ + x[2] * camera_.toward;
+          panel->drawing.triangles.push_back({{p, p, p}, {up_, up_, up_}, invisible});
+        }
+    }
+    return (high[1] - low[1]) / std::max(high[0] - low[0], 1e-300);
   }
 
   const Json& report_;
