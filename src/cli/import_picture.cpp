@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "import_picture_parts.h"
@@ -37,10 +38,10 @@ constexpr std::size_t most_arrows = 30, most_names = 16;
 // Shares of the size of the drawing.
 constexpr double edge_size = 0.0022, arrow_length = 0.055, arrow_size = 0.0012, apart = 0.035,
                  name_distance = 0.012;
-constexpr int single_width = 1200, double_width = 800;       // pixels
-constexpr double least_height = 0.4, largest_height = 0.85;  // of the width
-constexpr double letter_width = 13.5;                        // of names, pixels
-constexpr double step_turn = 0.45;                           // of arrows between steps, radians
+constexpr int single_width = 1200, double_width = 800;                   // pixels
+constexpr double least_height = 0.4, largest_height = 0.85;              // of the width
+constexpr double letter_width = 13.5, line_height = 23, name_room = 50;  // of names, pixels
+constexpr double step_turn = 0.45;                                       // of arrows between steps, radians
 /// Steps that neither move nor add nor open anything at their places.
 constexpr const char* unmarked[] = {"bent", "turned"};
 
@@ -220,6 +221,22 @@ class Import_picture {
     }
   }
 
+  /// Moves names down that would lie on others.
+  void part_names(double pixels) {
+    std::vector<Label>& labels = result_.labels;
+    const auto height = [&](const Label& label) { return pixels * dot(label.at, up_) + label.up; };
+    std::ranges::stable_sort(labels, std::greater{}, height);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const double across =
+            pixels * dot(labels[i].at - labels[k].at, right_) + labels[i].right - labels[k].right;
+        const std::string& left = (across > 0 ? labels[k] : labels[i]).text;
+        const double overlap = height(labels[i]) + line_height - height(labels[k]);
+        if (std::abs(across) < letter_width * static_cast<double>(left.size()) && overlap > 0)
+          labels[i].up -= overlap;
+      }
+  }
+
   /// Makes both drawings as large as what both show, with room for names on both sides; returns height by
   /// width.
   double frame(double width) {
@@ -231,9 +248,10 @@ class Import_picture {
     auto [low, high] = seen;
     std::size_t letters = 0;
     for (const Label& label : result_.labels) letters = std::max(letters, label.text.size());
-    const double share = std::min(0.25, (letter_width * static_cast<double>(letters) + 16) / width);
+    const double share = std::min(0.25, (letter_width * static_cast<double>(letters) + name_room) / width);
     const double pad = letters == 0 ? 0 : share / (1 - 2 * share) * (high[0] - low[0]);
     low[0] -= pad, high[0] += pad;
+    part_names(width / std::max(high[0] - low[0], 1e-300));
     const Point<3> middle = 0.5 * (low + high);
     for (Panel* panel : {&given_, &result_}) {
       const std::uint32_t invisible = panel->drawing.add_material({{0, 0, 0, 0}});
