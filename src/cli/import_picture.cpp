@@ -21,7 +21,7 @@ namespace {
 using namespace drawing;
 using Json = nlohmann::ordered_json;
 
-constexpr Colour given_colour{0.74, 0.77, 0.81}, wall_colour{0.80, 0.37, 0.33}, open_edge{0.86, 0.08, 0.10},
+constexpr Colour given_colour{0.74, 0.77, 0.81}, wall_colour{0.95, 0.86, 0.85}, open_edge{0.86, 0.08, 0.10},
     other_group{0.88, 0.62, 0.08};
 /// Kinds of parts in the report, what the legend calls several of them, and their colours.
 struct Kind {
@@ -42,8 +42,8 @@ constexpr int single_width = 1200, double_width = 800;                   // pixe
 constexpr double least_height = 0.4, largest_height = 0.85;              // of the width
 constexpr double letter_width = 13.5, line_height = 23, name_room = 50;  // of names, pixels
 constexpr double step_turn = 0.45;                                       // of arrows between steps, radians
-/// Steps that neither move nor add nor open anything at their places.
-constexpr const char* unmarked[] = {"bent", "turned"};
+/// Steps that move and open nothing at their places, or whose facets have a colour.
+constexpr const char* unmarked[] = {"bent", "turned", "sheets"};
 
 std::string counted(std::size_t n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
