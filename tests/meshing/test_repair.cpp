@@ -345,6 +345,19 @@ TEST(Repair, BoundsOfQualityKeepTheWalls) {
   EXPECT_GT(other.report.added_points, one.report.added_points);
 }
 
+TEST(Repair, AnySize) {
+  for (const double size : {1e-200, 1e-100, 1e-60, 1e-30, 1e-3, 1e3, 1e30, 1e60, 1e100, 1e200}) {
+    SCOPED_TRACE(size);
+    Surface_soup surface = cube({0, 0, 0}, size);
+    surface.facets.pop_back();
+    Repair_report report;
+    const Repaired_surface repaired = repair_surface(surface, {}, {}, report);
+    EXPECT_NEAR(report.parts.at(0).width / size, 2 / std::sqrt(std::numbers::pi), 1e-9);
+    for (const Point<3>& p : repaired.soup.points)
+      for (const double x : p) EXPECT_TRUE(x == 0 || x == size) << x;
+  }
+}
+
 TEST(Repair, OptionsOutOfRange) {
   Repair_options options;
   options.seam = -1;

@@ -67,9 +67,11 @@ double round(const E::FT& x) { return CGAL::to_double(CGAL::exact(x)); }  // equ
 /// A triangle seen along the axis that is the nearest to its normal, and its parts.
 class Cut_triangle {
  public:
-  Cut_triangle(const E::Triangle_3& triangle, const Vector<3>& normal) : plane_(triangle.supporting_plane()) {
+  explicit Cut_triangle(const E::Triangle_3& triangle) : plane_(triangle.supporting_plane()) {
+    // Of a needle, the rounded normal may be 0, or along an axis in its plane.
+    const std::array<E::FT, 3> normal{plane_.a(), plane_.b(), plane_.c()};
     for (int k = 1; k < 3; ++k)
-      if (std::abs(normal[k]) > std::abs(normal[axis_])) axis_ = k;
+      if (CGAL::abs(normal[k]) > CGAL::abs(normal[axis_])) axis_ = k;
     for (int i = 0; i < 3; ++i) corner_[i] = parts_.insert(seen(triangle[i]));
     is_turned_ = !E().left_turn_2_object()(corner_[0]->point(), corner_[1]->point(), corner_[2]->point());
   }
@@ -184,7 +186,7 @@ class Round {
   Cut_triangle& triangle(std::uint32_t f) {
     const auto at = cut_.find(f);
     if (at != cut_.end()) return at->second;
-    return cut_.try_emplace(f, exact(f), area_vector(surface_, surface_.facets[f])).first->second;
+    return cut_.try_emplace(f, exact(f)).first->second;
   }
 
   template <class Found>
@@ -276,7 +278,8 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
   };
   for (;;) {
     // The first round comes before: the sides of the file are split only where that does not suffice.
-    if (result.rounds > 0 && split_sides(surface, pairs, apart)) leave_out();
+    for (int i = 0; i < most_rounds && result.rounds > 0 && split_sides(surface, pairs, apart); ++i)
+      leave_out();
     if (pairs.empty()) break;
     const bool explodes = pairs.size() > most_growth * result.pairs.count + most_rounds;
     if (explodes || result.rounds++ == most_rounds)

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "cavity.h"
+#include "meshing/fill/scale.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -40,7 +41,15 @@ double distance_along(const Tree& tree, const K::Ray_3& ray, const K::Triangle_3
 
 }  // namespace
 
-std::optional<Point<3>> find_lumen(const Facets& oriented) {
+std::optional<Point<3>> find_lumen(const Facets& given) {
+  // At a size near 1: CGAL multiplies many coordinates.
+  Facets oriented = given;
+  double largest = 0;
+  for (const Point<3>& p : given.points)
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (Point<3>& p : oriented.points) p = scaled(p, -exponent);
   Triangles triangles;
   std::vector<double> areas;
   double total = 0;
@@ -92,7 +101,7 @@ std::optional<Point<3>> find_lumen(const Facets& oriented) {
     if (best == nullptr || hits > best_hits || (hits == best_hits && seed.second > best->second))
       best = &seed, best_hits = hits;
   }
-  return best->first;
+  return scaled(best->first, exponent);
 }
 
 }  // namespace cellwalk::detail

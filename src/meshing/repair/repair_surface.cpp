@@ -15,6 +15,7 @@
 #include "edges.h"
 #include "facets.h"
 #include "free_cells.h"
+#include "meshing/fill/scale.h"
 #include "meshing/fill/tetgen_bounds.h"
 #include "near_points.h"
 #include "parts.h"
@@ -331,10 +332,46 @@ void check(const Repair_options& options, const Tetrahedralize_options& mesh) {
 
 }  // namespace
 
+namespace {
+
+/// Surfaces of extreme size are repaired at a size near 1, by a power of two, which rounds nothing: products of
+/// coordinates would leave the range of doubles.
+Repaired_surface repair_scaled(const Surface_soup& surface, Repair_options options,
+                               Tetrahedralize_options mesh, Repair_report& report, int scale) {
+  Surface_soup near_one = surface;
+  for (Point<3>& p : near_one.points) p = scaled(p, scale);
+  for (Point<3>& p : options.inside) p = scaled(p, scale);
+  mesh.cell_size = std::ldexp(mesh.cell_size, scale);
+  const std::string note = fmt::format(" (coordinates times 2^{})", scale);
+  try {
+    Repaired_surface result = Repair(options, mesh, report).run(near_one);
+    for (Point<3>& p : result.soup.points) p = scaled(p, -scale);
+    report.size = std::ldexp(report.size, -scale);
+    report.volume = std::ldexp(report.volume, -3 * scale);
+    for (Repair_change& change : report.changes) {
+      if (!change.places.empty()) change.text += note;
+      for (Point<3>& p : change.places) p = scaled(p, -scale);
+    }
+    for (Repaired_part& part : report.parts) {
+      part.centre = scaled(part.centre, -scale);
+      part.area = std::ldexp(part.area, -2 * scale);
+      part.doubt = std::ldexp(part.doubt, -3 * scale);
+      for (double* size : {&part.width, &part.off_plane}) *size = std::ldexp(*size, -scale);
+    }
+    return result;
+  } catch (const Error& error) {
+    throw Error(error.code(), error.what() + note);
+  }
+}
+
+}  // namespace
+
 Repaired_surface repair_surface(const Surface_soup& surface, const Repair_options& options,
                                 const Tetrahedralize_options& mesh, Repair_report& report) {
   check(options, mesh);
   report = {};
+  const int scale = scale_of({surface});
+  if (scale != 0) return repair_scaled(surface, options, mesh, report, scale);
   return Repair(options, mesh, report).run(surface);
 }
 
