@@ -188,6 +188,54 @@ TEST(Repair, CapOffItsPlane) {
   EXPECT_NEAR(r.report.parts[0].doubt, 2.0 / 3, 1e-12);
 }
 
+/// A neighbour has the middle of a side as a corner: the side is split, and no gap is left to be capped.
+TEST(Repair, CornersOnSides) {
+  for (const double off : {0.0, 1e-7}) {  // in the plane, and beside the side
+    Surface_soup surface = cube({0, 0, 0}, 2);
+    const std::vector<std::uint32_t> quad = surface.facets[0];
+    surface.points.push_back(0.5 * (surface.points[quad[0]] + surface.points[quad[1]]) +
+                             Vector<3>{0, off, 0});
+    surface.facets[0] = {quad[0], 8, quad[1], quad[2], quad[3]};
+    const Repaired r = repair(surface);
+    EXPECT_EQ(r.step("split").substr(0, 26), "1 side split at a point on") << off;
+    EXPECT_TRUE(r.report.parts.empty());
+    EXPECT_NEAR(r.certificate.free_volume, 8, 1e-6);
+  }
+}
+
+/// A facet given twice goes if that closes the surface, in whatever direction it is given. Boxes that share a part
+/// of their walls keep both, with or without a triangle missing.
+TEST(Repair, CopiesOfFacets) {
+  for (const bool is_turned : {false, true}) {
+    Surface_soup twice = cube({0, 0, 0}, 2);
+    std::vector<std::uint32_t> copy = twice.facets[2];
+    if (is_turned) std::reverse(copy.begin(), copy.end());
+    twice.facets.push_back(copy);
+    const Repaired r = repair(twice);
+    EXPECT_EQ(r.step("repeated").substr(0, 31), "2 facets given twice left out, ") << is_turned;
+    EXPECT_EQ(r.step("sheets"), "");
+    EXPECT_DOUBLE_EQ(r.certificate.free_volume, 8);
+  }
+  const Surface_soup shared = join(box({0, 0, 0}, {2, 2, 2}), box({0, 0, 0}, {2, 2, 3}));
+  for (std::size_t left_out = 0; left_out <= shared.facets.size(); ++left_out) {
+    Surface_soup surface = shared;
+    if (left_out < shared.facets.size())
+      surface.facets.erase(surface.facets.begin() + static_cast<std::ptrdiff_t>(left_out));
+    const Repaired r = repair(surface);
+    EXPECT_EQ(r.step("repeated"), "") << left_out;
+    EXPECT_DOUBLE_EQ(r.certificate.free_volume, 12) << left_out;
+  }
+}
+
+/// A box that stands on the wall of another one, inside it, is no hollow in it, where rounding parts them too.
+TEST(Repair, ComponentsThatTouchFromInside) {
+  const Surface_soup surface = join(box({0, 0, 0}, {4, 4, 4}), box({0, 1, 1}, {2, 3, 3}));
+  for (double angle = 0; angle < 3; angle += 0.3)
+    EXPECT_NEAR(repair(turned_by_angles(surface, angle)).certificate.free_volume, 64, 1e-9) << angle;
+  EXPECT_DOUBLE_EQ(repair(join(box({0, 0, 0}, {4, 4, 4}), box({1, 1, 1}, {2, 3, 3}))).certificate.free_volume,
+                   60);
+}
+
 TEST(Repair, CapsByArea) {
   Surface_soup open = join(box({0, 0, 0}, {1, 2, 3}), box({5, 0, 0}, {9, 2, 3}));
   open.facets.erase(open.facets.begin() + 6);  // z = 0: 4 x 2

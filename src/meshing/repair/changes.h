@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,11 @@ struct Found {
   void add(const Point<3>& at, double distance = 0) {
     if (++count <= most_places) places.push_back(at);
     if (distance > measured) measured = distance;
+  }
+  void add(const Found& other) {
+    for (const Point<3>& place : other.places) add(place);
+    count += other.count - other.places.size();
+    measured = std::max(measured, other.measured);
   }
   /// ", the first at (x, y, z)", or ", at (x, y, z)" for a single one.
   std::string where() const {

@@ -15,6 +15,7 @@
 #include <variant>
 
 #include "near_points.h"
+#include "sides.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -25,9 +26,8 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     E, CGAL::Triangulation_data_structure_2<Vertex_base, CGAL::Constrained_triangulation_face_base_2<E>>,
     CGAL::Exact_intersections_tag>;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-using Side = std::pair<std::uint32_t, std::uint32_t>;  // of a triangle: its ends, ascending
 
-constexpr int most_rounds = 12;
+constexpr int most_rounds = 12, most_passes = 12;
 /// Later rounds have far fewer pairs than the first one, unless rounded parts cross more and more.
 constexpr std::size_t most_growth = 4;
 /// Corners are in a plane within this part of the distance at which points are joined, so that the points in
@@ -223,44 +223,34 @@ class Round {
 
 /// Makes corners that lie on the side of another triangle, up to rounding, corners of all triangles with that
 /// side: seen from one of them they may lie inside, from the next one outside, so that neither is cut there.
-/// Triangles with a corner on their own opposite side are left out then.
-/// \return true if there were any
-bool split_sides(Facets& surface, const Pairs& pairs, double apart) {
-  std::map<Side, std::uint32_t> splits;
-  const auto look_at_side = [&](std::uint32_t a, std::uint32_t b, std::uint32_t v) {
-    const Vector<3> along = surface.points[b] - surface.points[a], to = surface.points[v] - surface.points[a];
-    const double whole = length(along), part = dot(along, to) / whole;
-    if (part > apart && part < whole - apart && length(cross(along, to)) <= apart * whole)
-      splits.insert({std::minmax({a, b}), v});
-  };
-  const auto look = [&](std::uint32_t f, std::uint32_t g) {
-    const Triangle& s = surface.facets[f].corners;
-    for (const std::uint32_t v : surface.facets[g].corners)
-      for (int k = 0; k < 3; ++k)
-        if (v != s[0] && v != s[1] && v != s[2]) look_at_side(s[k], s[(k + 1) % 3], v);
-  };
-  for (const auto& [f, g] : pairs) look(f, g), look(g, f);
-  for (const Facet& f : surface.facets)
-    for (int k = 0; k < 3; ++k) look_at_side(f.corners[k], f.corners[(k + 1) % 3], f.corners[(k + 2) % 3]);
-  if (splits.empty()) return false;
-  std::vector<Facet> result;
-  const auto append = [&](const auto& self, const Facet& facet, int first) -> void {
-    for (int k = first; k < 3; ++k) {  // halves are split at the other sides
-      const std::uint32_t a = facet.corners[k], b = facet.corners[(k + 1) % 3],
-                          c = facet.corners[(k + 2) % 3];
-      const auto at = splits.find(std::minmax({a, b}));
-      if (at == splits.end()) continue;
-      if (at->second == c) return;
-      Facet one = facet, other = facet;
-      one.corners[(k + 1) % 3] = other.corners[k] = at->second;
-      self(self, one, k + 1), self(self, other, k + 1);
-      return;
-    }
-    result.push_back(facet);
-  };
-  for (const Facet& facet : surface.facets) append(append, facet, 0);
-  surface.facets = std::move(result);
-  return true;
+/// \param first_made points from this one on were made by cuts
+void split_sides_near_cuts(Facets& surface, const Pairs& pairs, std::size_t first_made, double apart) {
+  std::vector<bool> is_near(surface.points.size(), false), is_used(surface.points.size(), false);
+  std::fill(is_near.begin() + static_cast<std::ptrdiff_t>(first_made), is_near.end(), true);
+  for (const auto& [f, g] : pairs)
+    for (const std::uint32_t facet : {f, g})
+      for (const std::uint32_t v : surface.facets[facet].corners) is_near[v] = true;
+  const std::vector<bool> is_inner = is_near;  // and the corners around: of a sliver, the longest side too
+  for (const Facet& facet : surface.facets) {
+    const Triangle& t = facet.corners;
+    if (is_inner[t[0]] || is_inner[t[1]] || is_inner[t[2]])
+      is_near[t[0]] = is_near[t[1]] = is_near[t[2]] = true;
+  }
+  for (int pass = 0; pass < most_passes; ++pass) {
+    std::vector<Side> sides;
+    for (const Facet& f : surface.facets)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = f.corners[k], b = f.corners[(k + 1) % 3];
+        is_used[a] = true;
+        if (is_near[a] || is_near[b]) sides.push_back(std::minmax({a, b}));
+      }
+    std::sort(sides.begin(), sides.end());
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t v = 0; v < is_used.size(); ++v)
+      if (is_used[v]) points.push_back(v);
+    if (split_sides(surface, sides, points, apart).count == 0) return;
+  }
 }
 
 }  // namespace
@@ -271,15 +261,16 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
   const std::size_t points = surface.points.size();
   const double apart = part_of_joined * joined_within;
   const auto leave_out = [&] {
-    const Left_out left_out = leave_out_useless(surface);
-    result.left_out.collinear.count += left_out.collinear.count;
-    result.left_out.repeated.count += left_out.repeated.count;
+    leave_out_collinear(surface);
+    keep_one_in_each_place(surface);
     pairs = crossing_pairs(surface);
   };
   for (;;) {
     // The first round comes before: the sides of the file are split only where that does not suffice.
-    for (int i = 0; i < most_rounds && result.rounds > 0 && split_sides(surface, pairs, apart); ++i)
+    if (result.rounds > 0) {
+      split_sides_near_cuts(surface, pairs, points, apart);
       leave_out();
+    }
     if (pairs.empty()) break;
     const bool explodes = pairs.size() > most_growth * result.pairs.count + most_rounds;
     if (explodes || result.rounds++ == most_rounds)
@@ -291,9 +282,7 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
     between();
     Round(surface, apart).cut(pairs);
     const Found joined = weld(surface, joined_within, false);
-    for (const Point<3>& place : joined.places) result.joined.add(place);
-    result.joined.count += joined.count - joined.places.size();
-    result.joined.measured = std::max(result.joined.measured, joined.measured);
+    result.joined.add(joined);
     leave_out();
   }
   result.added_points = surface.points.size() - points;

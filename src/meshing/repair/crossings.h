@@ -24,7 +24,6 @@ struct Cut {
   Found joined;  ///< points joined with others, and how far
   std::size_t added_points = 0;
   int rounds = 0;
-  Left_out left_out;
 };
 
 /// Cuts triangles that cross, with exact constructions, whose points are rounded once. Rounded parts may

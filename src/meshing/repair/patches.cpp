@@ -2,11 +2,15 @@
 // Floods across edges, and components within components.
 #include "patches.h"
 
+#include <CGAL/Bbox_3.h>
+#include <CGAL/box_intersection_d.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "edges.h"
+#include "meshing/fill/narrow_distance.h"
 #include "winding.h"
 
 namespace cellwalk::detail {
@@ -115,6 +119,35 @@ Extent extent_of(const Facets& s, const std::vector<std::uint32_t>& facets) {
   return e;
 }
 
+/// Calls visit(f, g) for triangles of different components that touch up to rounding. It may part a component in
+/// another one from the wall on which it stands.
+template <class Visit>
+void for_each_touching_pair(const Facets& surface, const Components& components, const Visit& visit) {
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+  constexpr double touching = 1e-11;
+  const double within = touching * surface.size;
+  std::vector<Box> boxes;
+  for (std::uint32_t f = 0; f < surface.facets.size(); ++f) {
+    if (components.of(f) == Components::none) continue;
+    CGAL::Bbox_3 box;
+    for (std::size_t k = 0; k < 3; ++k) box += to_cgal(surface.corner(surface.facets[f], k)).bbox();
+    boxes.emplace_back(CGAL::Bbox_3(box.xmin() - within, box.ymin() - within, box.zmin() - within,
+                                    box.xmax() + within, box.ymax() + within, box.zmax() + within),
+                       f);
+  }
+  const auto corners = [&](const Facet& f) {
+    return Triangle_corners{surface.corner(f, 0), surface.corner(f, 1), surface.corner(f, 2)};
+  };
+  const auto names = [](const Facet& f) {
+    return std::array<std::size_t, 3>{f.corners[0], f.corners[1], f.corners[2]};
+  };
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    if (components.of(a.info()) == components.of(b.info())) return;
+    const Facet &f = surface.facets[a.info()], &g = surface.facets[b.info()];
+    if (distance_of(corners(f), corners(g), names(f), names(g)).distance <= within) visit(a.info(), b.info());
+  });
+}
+
 }  // namespace
 
 Turned turn_to_agree(Facets& surface) {
@@ -166,11 +199,13 @@ Oriented orient_by_nesting(Facets& surface,
                            const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing) {
   const Components components(surface);
   std::vector<std::vector<std::uint32_t>> meets(components.size());
-  for (const auto& [f, g] : crossing) {
+  const auto meet = [&](std::uint32_t f, std::uint32_t g) {
     const std::uint32_t a = components.of(f), b = components.of(g);
-    if (a == Components::none || b == Components::none || a == b) continue;
+    if (a == Components::none || b == Components::none || a == b) return;
     meets[a].push_back(b), meets[b].push_back(a);
-  }
+  };
+  for (const auto& [f, g] : crossing) meet(f, g);
+  if (components.size() > 1) for_each_touching_pair(surface, components, meet);
   for (auto& others : meets) std::sort(others.begin(), others.end());
   std::vector<Extent> extents;
   for (std::size_t c = 0; c < components.size(); ++c)
@@ -204,14 +239,16 @@ Oriented orient_by_nesting(Facets& surface,
 Found find_inner_sheets(Facets& surface) {
   const auto uses = edge_uses(surface.facets);
   Joined_sets sets = connected(surface.facets, uses);
-  std::vector<bool> ends_oddly(surface.facets.size(), false);
+  // Without a sheet, fewer edges have an odd number of triangles.
+  std::vector<std::ptrdiff_t> odd_edges(surface.facets.size(), 0);
   for_each_edge(uses, [&](std::span<const Edge_use> edge) {
-    if (edge.size() % 2 == 1)
-      for (const Edge_use& use : edge) ends_oddly[sets.find(use.facet)] = true;
+    if (edge.size() == 2) return;
+    for (const Edge_use& use : edge) odd_edges[sets.find(use.facet)] += edge.size() % 2 == 1 ? 1 : -1;
   });
   std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
   for (std::uint32_t f = 0; f < surface.facets.size(); ++f)
-    if (surface.facets[f].part != Part::sheet && ends_oddly[sets.find(f)]) by_root[sets.find(f)].push_back(f);
+    if (surface.facets[f].part != Part::sheet && odd_edges[sets.find(f)] > 0)
+      by_root[sets.find(f)].push_back(f);
   std::vector<std::vector<std::uint32_t>> patches;
   for (auto& [root, patch] : by_root) patches.push_back(std::move(patch));
   std::stable_sort(patches.begin(), patches.end(),

@@ -20,6 +20,7 @@
 #include "near_points.h"
 #include "parts.h"
 #include "patches.h"
+#include "sides.h"
 #include "tidy.h"
 #include "wall_distance.h"
 
@@ -31,6 +32,8 @@ using namespace detail;
 /// Points that cuts made are joined with others nearer than this part of the size. Without it, rounding makes
 /// three cubes in general position cross for ever.
 constexpr double rounding_apart = 1e-9;
+/// Points nearer to a side than this part of the size lie on it, up to rounding.
+constexpr double on_side = 1e-11;
 /// A region is free if the surface surrounds it more often than this.
 constexpr double surrounded = 0.5;
 /// The volume of the regions agrees with that of the surface to this part of it.
@@ -69,18 +72,21 @@ class Repair {
     if (mesh_.limits.on_wait) mesh_.limits.on_wait();
   }
 
+  /// Triangles that collapsed, or are given twice. Sheets are marked.
   void leave_out() {
-    const Left_out left_out = leave_out_useless(surface_);
-    note("collinear", "with all corners on one line left out", left_out.collinear, "facet", "facets");
-    note("repeated", "given twice left out", left_out.repeated, "facet", "facets");
+    note("collinear", "with all corners on one line left out", leave_out_collinear(surface_), "facet",
+         "facets");
+    const Copies copies = settle_copies(surface_);
+    note("repeated", "given twice left out", copies.repeated, "facet", "facets");
+    sheets_.add(copies.sheets);
   }
 
   /// The triangles of the file, with caps, and sheets apart.
   void prepare(const Surface_soup& soup) {
     surface_ = read_facets(soup, report_.changes);
     report_.size = surface_.size;
-    leave_out();
     given_ = surface_;
+    leave_out();
     const Found seams = join_seams(surface_, options_.seam * surface_.size);
     if (seams.count != 0) {
       say("seams",
@@ -89,33 +95,40 @@ class Repair {
           seams);
       leave_out();
     }
+    const Found split = split_uneven_sides(surface_, options_.seam * surface_.size, on_side * surface_.size);
+    if (split.count != 0) {
+      say("split",
+          fmt::format("{} split at {} on {}, the farthest off by {:.2g}",
+                      counted(split.count, "side", "sides"), split.count == 1 ? "a point" : "points",
+                      split.count == 1 ? "it" : "them", split.measured * surface_.size),
+          split);
+      leave_out();
+    }
     const Turned turned = turn_to_agree(surface_);
     note("turned", "turned to agree with their neighbours", turned.facets, "facet", "facets");
     note("one_sided", "of one-sided bands, which bound nothing", turned.one_sided, "facet", "facets");
+    sheets_.add(find_inner_sheets(surface_));
     set_sheets_aside();
     wait();
     caps_ = add_caps(surface_);
-    leave_out_useless(surface_);  // parts of caps between points on a line
+    leave_out_collinear(surface_);  // parts of caps between points on a line
     if (surface_.facets.empty()) refuse_nothing();
     wait();
   }
 
   void set_sheets_aside() {
-    const Found doubled = find_doubled_sheets(surface_), inner = find_inner_sheets(surface_);
     const std::size_t count = number_connected(surface_.facets, Part::sheet);
     if (count == 0) return;
-    Found all = doubled;
-    for (const Point<3>& p : inner.places) all.add(p);
-    const std::string what = fmt::format("{} of {}", counted(count, "sheet", "sheets"),
-                                         counted(doubled.count + inner.count, "facet", "facets"));
+    const std::string what =
+        fmt::format("{} of {}", counted(count, "sheet", "sheets"), counted(sheets_.count, "facet", "facets"));
     if (options_.sheets == Sheets::refuse)
       refuse_surface(
           fmt::format("has {} inside, or given on both sides{}; remove them, or keep them as "
                       "membranes (--sheets keep)",
-                      what, all.where()));
+                      what, sheets_.where()));
     if (options_.sheets == Sheets::open)
       std::erase_if(surface_.facets, [](const Facet& f) { return f.part == Part::sheet; });
-    say("sheets", what + (options_.sheets == Sheets::open ? " opened" : " kept as membranes"), all);
+    say("sheets", what + (options_.sheets == Sheets::open ? " opened" : " kept as membranes"), sheets_);
     report_.changes.back().count = count;
   }
 
@@ -316,6 +329,7 @@ class Repair {
   Facets given_;     // the triangles of the file
   Facets surface_;   // what becomes of them
   Facets oriented_;  // before cuts
+  Found sheets_;
   std::vector<Repaired_part> caps_;
 };
 
@@ -330,12 +344,8 @@ void check(const Repair_options& options, const Tetrahedralize_options& mesh) {
   detail::check_bounds(mesh);
 }
 
-}  // namespace
-
-namespace {
-
-/// Surfaces of extreme size are repaired at a size near 1, by a power of two, which rounds nothing: products of
-/// coordinates would leave the range of doubles.
+/// Surfaces of extreme size are repaired at a size near 1, by a power of two, which rounds nothing: products
+/// of coordinates would leave the range of doubles.
 Repaired_surface repair_scaled(const Surface_soup& surface, Repair_options options,
                                Tetrahedralize_options mesh, Repair_report& report, int scale) {
   Surface_soup near_one = surface;

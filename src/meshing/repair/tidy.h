@@ -17,22 +17,25 @@ namespace cellwalk::detail {
 /// \throw Error(input) if the surface is empty or malformed
 Facets read_facets(const Surface_soup& surface, std::vector<Repair_change>& changes);
 
-/// Leaves out triangles whose corners lie on one line, and repeated ones of the same orientation. Of repeated
-/// ones with different parts, the part of lower value stays.
-/// \return those left out, with their places
-struct Left_out {
-  Found collinear, repeated;
+/// Leaves out triangles whose corners lie on one line.
+Found leave_out_collinear(Facets& surface);
+
+/// Keeps one of the triangles in the same place, whatever their orientation: one whose part has the lowest
+/// value.
+void keep_one_in_each_place(Facets& surface);
+
+struct Copies {
+  Found repeated, sheets;
 };
-Left_out leave_out_useless(Facets& surface);
+
+/// Decides about triangles of the file that are given twice, in connected parts. A part given on both sides, with
+/// an edge of its own, is a sheet. Elsewhere one of two is left out if that closes the surface; where two solids
+/// touch or overlap, both stay.
+Copies settle_copies(Facets& surface);
 
 /// Replaces each point by another, and leaves out triangles that collapse.
 /// \param target of each point; its own target is itself
 void join_points(Facets& surface, const std::vector<std::uint32_t>& target);
-
-/// Makes sheets of triangles that are given on both sides, where such a part has an edge of its own; other
-/// such parts are the places where two solids touch.
-/// \return the sheets found
-Found find_doubled_sheets(Facets& surface);
 
 }  // namespace cellwalk::detail
 
