@@ -44,7 +44,7 @@ cmake --build --preset fuzz --parallel --target "${targets[@]/#/fuzz_}"
 # from the length of its input; a gzip stream may hold a thousand times what it takes.
 limits() {
   case "$1" in
-    build | nonconforming | edits | moves | surface) echo "-max_len=400 -malloc_limit_mb=64 -rss_limit_mb=2048" ;;
+    build | nonconforming | edits | moves | surface | repair) echo "-max_len=400 -malloc_limit_mb=64 -rss_limit_mb=2048" ;;
     gzip) echo "-max_len=4096 -malloc_limit_mb=16 -rss_limit_mb=2048" ;;
     *) echo "-max_len=4096 -malloc_limit_mb=4 -rss_limit_mb=2048" ;;
   esac

@@ -57,6 +57,8 @@ void moves(std::string_view bytes);
 
 /// Surfaces from bytes: checked for meshing, and their narrowest place found. In builds with `meshing`.
 void surface(std::string_view bytes);
+/// Surfaces from bytes with defects of all kinds: repaired, meshed and built. In builds with `meshing`.
+void repair(std::string_view bytes);
 
 /// A promise that was broken. No Error, so that nobody takes it for a refusal.
 struct Finding : std::logic_error {

@@ -31,7 +31,7 @@ const std::vector<Target> targets{
     {"compiled", compiled}, {"forged", forged}, {"build", build},   {"nonconforming", nonconforming},
     {"edits", edits},       {"moves", moves},
 #ifdef CELLWALK_FUZZ_MESHING
-    {"surface", surface},
+    {"surface", surface},   {"repair", repair},
 #endif
 };
 
