@@ -56,6 +56,8 @@ template <class... Cases>
 struct Overloads : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloads(Cases...) -> Overloads<Cases...>;  // Clang 14
 
 }  // namespace
 

@@ -168,8 +168,8 @@ TEST(DamagedSurfaces, ComeBackWithTheirVolume) {
     for (const Repair_change& change : report.changes) cut += change.step == "cut";
     capped += !report.parts.empty();
   }
-  // Four boxes turned in space have many coplanar facets, which rounding parts: a few may cross for ever, and are
-  // refused. None gets a wrong volume.
+  // Four boxes turned in space have many coplanar facets, which rounding parts: a few may cross for ever, and
+  // are refused. None gets a wrong volume.
   EXPECT_LE(refused, cases / 40);
   EXPECT_GT(cut, cases / 3);
   EXPECT_GT(capped, cases / 6);

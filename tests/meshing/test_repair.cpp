@@ -9,72 +9,19 @@
 #include <numbers>
 #include <set>
 
-#include "shapes.h"
+#include "repaired.h"
 
 namespace cellwalk {
 namespace {
 
 using test::box;
+using test::cube;
 using test::join;
+using test::quadrangle;
 using test::refusal;
-
-struct Repaired {
-  Repair_report report;
-  Certificate certificate;
-  Soup_groups groups;
-  Cell_soup<3> soup;
-
-  /// The texts of the changes of a step.
-  std::string step(const std::string& name) const {
-    std::string text;
-    for (const Repair_change& c : report.changes)
-      if (c.step == name) text += c.text + "\n";
-    return text;
-  }
-  /// The area of the walls inside the free space.
-  double membrane_area() const {
-    std::map<std::set<std::uint32_t>, int> sides;
-    const auto key = [this](std::size_t f) {
-      return std::set<std::uint32_t>(soup.facet(f).begin(), soup.facet(f).end());
-    };
-    for (std::size_t f = 0; f < soup.facet_count(); ++f) ++sides[key(f)];
-    double area = 0;
-    for (std::size_t f = 0; f < soup.facet_count(); ++f) {
-      if (soup.impassable[f] == 0 || sides[key(f)] != 2) continue;
-      const auto t = soup.facet(f);
-      area += length(cross(soup.points[t[1]] - soup.points[t[0]], soup.points[t[2]] - soup.points[t[0]])) / 4;
-    }
-    return area;
-  }
-};
-
-Repaired repair(const Surface_soup& surface, const Repair_options& options = {},
-                const Tetrahedralize_options& mesh = {}) {
-  Repaired result;
-  Repaired_surface repaired = repair_surface(surface, options, mesh, result.report);
-  result.soup = repaired.soup;
-  result.groups = std::move(repaired.groups);
-  Build_report built;
-  (void)Environment<3>::build(std::move(repaired.soup), {.split = false, .keep_map = false}, &built);
-  result.certificate = built.certificate;
-  return result;
-}
-
-Surface_soup cube(const Point<3>& low, double side) { return box(low, low + Vector<3>{side, side, side}); }
-
-/// Turned by two angles, so that nothing is parallel to the axes.
-Surface_soup turned_by_angles(Surface_soup s, double a = 0.7) {
-  const double b = 0.5 * a + 0.05;
-  for (Point<3>& p : s.points) {
-    p = {std::cos(a) * p[0] - std::sin(a) * p[1], std::sin(a) * p[0] + std::cos(a) * p[1], p[2]};
-    p = {p[0], std::cos(b) * p[1] - std::sin(b) * p[2], std::sin(b) * p[1] + std::cos(b) * p[2]};
-  }
-  return s;
-}
-
-Surface_soup quadrangle(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
-  return {{a, b, c, d}, {{0, 1, 2, 3}}};
-}
+using test::repair;
+using test::Repaired;
+using test::turned_by_angles;
 
 /// A tube along z with a thick wall, open at both ends, with an inner radius of 1 and an outer one of 1.2.
 Surface_soup thick_tube(double length, int sides) {
@@ -186,54 +133,6 @@ TEST(Repair, CapOffItsPlane) {
   ASSERT_EQ(r.report.parts.size(), 1u);
   EXPECT_NEAR(r.report.parts[0].off_plane, 0.5, 1e-12);
   EXPECT_NEAR(r.report.parts[0].doubt, 2.0 / 3, 1e-12);
-}
-
-/// A neighbour has the middle of a side as a corner: the side is split, and no gap is left to be capped.
-TEST(Repair, CornersOnSides) {
-  for (const double off : {0.0, 1e-7}) {  // in the plane, and beside the side
-    Surface_soup surface = cube({0, 0, 0}, 2);
-    const std::vector<std::uint32_t> quad = surface.facets[0];
-    surface.points.push_back(0.5 * (surface.points[quad[0]] + surface.points[quad[1]]) +
-                             Vector<3>{0, off, 0});
-    surface.facets[0] = {quad[0], 8, quad[1], quad[2], quad[3]};
-    const Repaired r = repair(surface);
-    EXPECT_EQ(r.step("split").substr(0, 26), "1 side split at a point on") << off;
-    EXPECT_TRUE(r.report.parts.empty());
-    EXPECT_NEAR(r.certificate.free_volume, 8, 1e-6);
-  }
-}
-
-/// A facet given twice goes if that closes the surface, in whatever direction it is given. Boxes that share a part
-/// of their walls keep both, with or without a triangle missing.
-TEST(Repair, CopiesOfFacets) {
-  for (const bool is_turned : {false, true}) {
-    Surface_soup twice = cube({0, 0, 0}, 2);
-    std::vector<std::uint32_t> copy = twice.facets[2];
-    if (is_turned) std::reverse(copy.begin(), copy.end());
-    twice.facets.push_back(copy);
-    const Repaired r = repair(twice);
-    EXPECT_EQ(r.step("repeated").substr(0, 31), "2 facets given twice left out, ") << is_turned;
-    EXPECT_EQ(r.step("sheets"), "");
-    EXPECT_DOUBLE_EQ(r.certificate.free_volume, 8);
-  }
-  const Surface_soup shared = join(box({0, 0, 0}, {2, 2, 2}), box({0, 0, 0}, {2, 2, 3}));
-  for (std::size_t left_out = 0; left_out <= shared.facets.size(); ++left_out) {
-    Surface_soup surface = shared;
-    if (left_out < shared.facets.size())
-      surface.facets.erase(surface.facets.begin() + static_cast<std::ptrdiff_t>(left_out));
-    const Repaired r = repair(surface);
-    EXPECT_EQ(r.step("repeated"), "") << left_out;
-    EXPECT_DOUBLE_EQ(r.certificate.free_volume, 12) << left_out;
-  }
-}
-
-/// A box that stands on the wall of another one, inside it, is no hollow in it, where rounding parts them too.
-TEST(Repair, ComponentsThatTouchFromInside) {
-  const Surface_soup surface = join(box({0, 0, 0}, {4, 4, 4}), box({0, 1, 1}, {2, 3, 3}));
-  for (double angle = 0; angle < 3; angle += 0.3)
-    EXPECT_NEAR(repair(turned_by_angles(surface, angle)).certificate.free_volume, 64, 1e-9) << angle;
-  EXPECT_DOUBLE_EQ(repair(join(box({0, 0, 0}, {4, 4, 4}), box({1, 1, 1}, {2, 3, 3}))).certificate.free_volume,
-                   60);
 }
 
 TEST(Repair, CapsByArea) {

@@ -33,7 +33,7 @@ template <int D>
 bool Sides<D>::add(std::uint32_t u, std::uint32_t v, std::uint32_t x) {
   std::vector<std::uint32_t>& own = inside_[key(u, v)];
   if (std::find(own.begin(), own.end(), x) != own.end()) return false;
-  const auto [low, high] = std::minmax(u, v);
+  const std::uint32_t low = std::min(u, v), high = std::max(u, v);
   if (is_end_.size() <= high) is_end_.resize(points_.size(), 0);
   is_end_[low] = is_end_[high] = 1;
   own.insert(

@@ -125,5 +125,7 @@ std::string mesh_by_tetgen(const std::vector<Surface_soup>& surfaces, const Feat
                           first_problem, describe(narrow_places(surfaces), names)));
 }
 
+bool ran_out_of_time(const Error& error) { return dynamic_cast<const Used_up*>(&error) != nullptr; }
+
 }  // namespace detail
 }  // namespace cellwalk

@@ -3,6 +3,7 @@
 #ifndef CELLWALK_MESHING_FILL_TETGEN_CALL_H
 #define CELLWALK_MESHING_FILL_TETGEN_CALL_H
 
+#include <cellwalk/kernel/error.h>
 #include <cellwalk/meshing/tetrahedralize.h>
 
 #include <array>
@@ -33,6 +34,9 @@ using Accept_mesh = std::function<void(const Tetgen_result&)>;
 ///        where the surfaces are narrowest
 std::string mesh_by_tetgen(const std::vector<Surface_soup>& surfaces, const Feature_names& names,
                            const Tetrahedralize_options& options, const Accept_mesh& accept);
+
+/// True for the error of a TetGen that did not end within its limit of time.
+bool ran_out_of_time(const Error& error);
 
 }  // namespace cellwalk::detail
 

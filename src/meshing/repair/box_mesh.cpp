@@ -5,6 +5,7 @@
 #include <cellwalk/internal/kernel/random.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -52,6 +53,37 @@ constexpr double leak = 0.01;
 /// Where TetGen fails, it may succeed with the points in another order. So many are tried.
 constexpr std::uint64_t further_orders = 2;
 
+/// The seconds after which another order is tried: it may succeed at once where TetGen's flips go round in
+/// circles. With a size of cells, nobody can say how many there will be.
+double patience(const Facets& surface, const Tetrahedralize_options& options) {
+  if (options.cell_size > 0) return options.limits.seconds;
+  const double several = options.quality > 0 ? 30 : 10;
+  return several + 1e-3 * static_cast<double>(surface.facets.size());
+}
+
+/// Checks that neighbours lie on different sides of their common facet. With finer tolerances, TetGen may
+/// return tetrahedra that fold over each other.
+/// \pre all are positive
+/// \throw Error(not_certified)
+void check_unfolded(const Tetgen_result& mesh) {
+  const auto runs_up = [&](std::uint32_t t, int i) {
+    const auto& c = mesh.tetrahedra[t];
+    Triangle f{c[(i + 1) & 3], c[(i + 2) & 3], c[(i + 3) & 3]};
+    if ((i & 1) != 0) std::swap(f[1], f[2]);
+    return runs_upwards(f);
+  };
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (int i = 0; i < 4; ++i) {
+      const std::int32_t n = mesh.neighbours[t][i];
+      if (n < static_cast<std::int32_t>(t)) continue;
+      const auto& back = mesh.neighbours[n];
+      const auto j =
+          static_cast<int>(std::find(back.begin(), back.end(), static_cast<std::int32_t>(t)) - back.begin());
+      if (runs_up(t, i) == runs_up(static_cast<std::uint32_t>(n), j))
+        throw Error(Error_code::not_certified, "TetGen made no mesh: its tetrahedra overlap");
+    }
+}
+
 /// Tetrahedra by TetGen, which gets the points in some order.
 /// \param order the number of each of its points
 Tetgen_result mesh_in_order(const Facets& surface, const std::vector<std::uint32_t>& order, Frame frame,
@@ -83,6 +115,7 @@ Tetgen_result mesh_in_order(const Facets& surface, const std::vector<std::uint32
     for (std::size_t t = 0; t < result.tetrahedra.size(); ++t)
       if (result.tetrahedra[t] != mesh.tetrahedra[t])
         std::swap(result.neighbours[t][0], result.neighbours[t][1]);
+    check_unfolded(result);
   });
   std::copy(surface.points.begin(), surface.points.end(), result.points.begin());
   for (auto& t : result.tetrahedra)
@@ -125,14 +158,21 @@ Tetgen_result mesh_between(const Facets& surface, Frame frame, const Tetrahedral
                            std::string& tolerance) {
   std::vector<std::uint32_t> order(surface.points.size());
   std::iota(order.begin(), order.end(), 0u);
+  const auto start = std::chrono::steady_clock::now();
   std::string first_problem;
   for (std::uint64_t attempt = 0;; ++attempt) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const double left = options.limits.seconds - elapsed.count();
+    Tetrahedralize_options limited = options;
+    limited.limits.seconds = attempt == further_orders ? left : std::min(left, patience(surface, options));
     try {
-      return mesh_in_order(surface, order, frame, options, tolerance);
+      return mesh_in_order(surface, order, frame, limited, tolerance);
     } catch (const Error& error) {
       if (error.code() != Error_code::not_certified) throw;
-      if (first_problem.empty()) first_problem = error.what();
-      if (attempt == further_orders) throw Error(Error_code::not_certified, first_problem);
+      const bool is_last = attempt == further_orders || limited.limits.seconds >= left;
+      const bool is_impatience = ran_out_of_time(error) && !is_last;
+      if (first_problem.empty() && !is_impatience) first_problem = error.what();
+      if (is_last) throw Error(Error_code::not_certified, first_problem);
       Random(attempt + 1).shuffle(order);
     }
   }
@@ -186,7 +226,8 @@ Regions find_regions(const Tetgen_result& mesh, const Labels& labels) {
   return result;
 }
 
-Windings wind(const Tetgen_result& mesh, const Regions& regions, const Facets& oriented) {
+Windings wind(const Tetgen_result& mesh, const Regions& regions, const Facets& oriented,
+              const std::string& hint) {
   Windings result;
   const double least = sliver * oriented.size * oriented.size * oriented.size;
   for (const Region& region : regions.regions) {
@@ -197,13 +238,17 @@ Windings wind(const Tetgen_result& mesh, const Regions& regions, const Facets& o
       if (std::abs(number - other) > leak)
         refuse_surface(
             fmt::format("has a hole that was not found: inside and outside are connected near {}; "
-                        "close it, or name a point of the free space (--inside)",
-                        describe(place)));
+                        "close it, or name a point of the free space (--inside){}",
+                        describe(place), hint));
     }
     result.of.push_back(number);
     const double nearest = std::round(number);
     if (region.volume > least) result.error = std::max(result.error, std::abs(number - nearest));
     result.volume += nearest * region.volume;
+    if (nearest < 0 && region.volume > least) {
+      result.inside_out.add(place);
+      result.inside_out_volume += region.volume;
+    }
     if (nearest > 1) result.covered_twice += (nearest - 1) * region.volume;
   }
   return result;

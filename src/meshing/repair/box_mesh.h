@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "changes.h"
 #include "facets.h"
 #include "meshing/fill/tetgen_call.h"
 
@@ -54,12 +55,16 @@ struct Windings {
   double error = 0;          ///< the largest distance from an integer
   double volume = 0;         ///< each region's volume times its winding number
   double covered_twice = 0;  ///< the same for its part above 1
+  Found inside_out;          ///< regions whose numbers are below -1/2
+  double inside_out_volume = 0;
 };
 
 /// \param oriented the triangles that bound regions
+/// \param hint the end of the message about a leak
 /// \throw Error(input) if two places of a region have different ones
 /// Cost: two winding numbers for each region.
-Windings wind(const Tetgen_result& mesh, const Regions& regions, const Facets& oriented);
+Windings wind(const Tetgen_result& mesh, const Regions& regions, const Facets& oriented,
+              const std::string& hint);
 
 }  // namespace cellwalk::detail
 

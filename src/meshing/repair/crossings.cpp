@@ -230,20 +230,19 @@ void split_sides_near_cuts(Facets& surface, const Pairs& pairs, std::size_t firs
   for (const auto& [f, g] : pairs)
     for (const std::uint32_t facet : {f, g})
       for (const std::uint32_t v : surface.facets[facet].corners) is_near[v] = true;
-  const std::vector<bool> is_inner = is_near;  // and the corners around: of a sliver, the longest side too
-  for (const Facet& facet : surface.facets) {
-    const Triangle& t = facet.corners;
-    if (is_inner[t[0]] || is_inner[t[1]] || is_inner[t[2]])
-      is_near[t[0]] = is_near[t[1]] = is_near[t[2]] = true;
-  }
   for (int pass = 0; pass < most_passes; ++pass) {
     std::vector<Side> sides;
-    for (const Facet& f : surface.facets)
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = f.corners[k], b = f.corners[(k + 1) % 3];
-        is_used[a] = true;
-        if (is_near[a] || is_near[b]) sides.push_back(std::minmax({a, b}));
+    std::vector<bool> is_near_now = is_near;
+    for (const Facet& f : surface.facets) {
+      const Triangle& t = f.corners;
+      for (const std::uint32_t v : t) is_used[v] = true;
+      if (!is_near[t[0]] && !is_near[t[1]] && !is_near[t[2]]) continue;
+      for (int k = 0; k < 3; ++k) {  // of slivers, the longest side, too
+        sides.push_back(std::minmax({t[k], t[(k + 1) % 3]}));
+        is_near_now[t[k]] = true;
       }
+    }
+    is_near = is_near_now;
     std::sort(sides.begin(), sides.end());
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
     std::vector<std::uint32_t> points;
@@ -259,6 +258,7 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
   Cut result;
   for (const auto& [f, g] : pairs) result.pairs.add(centre(surface, surface.facets[f]));
   const std::size_t points = surface.points.size();
+  std::size_t facets_after_one = 0;
   const double apart = part_of_joined * joined_within;
   const auto leave_out = [&] {
     leave_out_collinear(surface);
@@ -272,10 +272,12 @@ Cut cut_crossings(Facets& surface, Pairs pairs, double joined_within, const std:
       leave_out();
     }
     if (pairs.empty()) break;
-    const bool explodes = pairs.size() > most_growth * result.pairs.count + most_rounds;
+    if (result.rounds == 1) facets_after_one = surface.facets.size();
+    const bool explodes = pairs.size() > most_growth * result.pairs.count + most_rounds ||
+                          (result.rounds > 1 && surface.facets.size() > 2 * most_growth * facets_after_one);
     if (explodes || result.rounds++ == most_rounds)
-      refuse_surface(fmt::format(
-          "crosses itself: {} still cross after {} rounds of cuts, the first at {}; "
+      throw Still_crossing(fmt::format(
+          "surface crosses itself: {} still cross after {} rounds of cuts, the first at {}; "
           "repair it there",
           counted(pairs.size(), "pair of facets", "pairs of facets"), std::min(result.rounds, most_rounds),
           describe(centre(surface, surface.facets[pairs[0].first]))));

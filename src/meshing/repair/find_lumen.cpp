@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "cavity.h"
 #include "meshing/fill/scale.h"
@@ -25,6 +26,9 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<K, Primitive>>;
 constexpr std::size_t samples = 2000, rays_of_seed = 200, most_seeds = 500;
 /// A wall is thick if this part of the rays meets it again, this many times farther than it is thick.
 constexpr double enough = 0.25, farther = 3;
+/// Around a lumen, this part of the rays from its middle meets the wall. Measured: 0.86 to 1 for thick tubes,
+/// 0.3 to 0.82 for channels that bend back and for plates that face each other.
+constexpr double closed = 0.85;
 
 double distance_along(const Tree& tree, const K::Ray_3& ray, const K::Triangle_3* own) {
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -54,8 +58,12 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
   std::vector<double> areas;
   double total = 0;
   std::vector<Vector<3>> normals;
+  // Where two solids touch, there is no wall: from either side a ray meets the other one at once.
+  std::map<Triangle, int> sides;
+  const auto side_of = [](const Facet& f) { return runs_upwards(f.corners) ? 1 : 2; };
+  for (const Facet& f : oriented.facets) sides[sorted(f.corners)] |= side_of(f);
   for (const Facet& f : oriented.facets) {
-    if (f.part == Part::sheet) continue;
+    if (f.part == Part::sheet || sides[sorted(f.corners)] == 3) continue;
     triangles.emplace_back(to_cgal(oriented.corner(f, 0)), to_cgal(oriented.corner(f, 1)),
                            to_cgal(oriented.corner(f, 2)));
     areas.push_back(total += area(oriented, f));
@@ -101,6 +109,7 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
     if (best == nullptr || hits > best_hits || (hits == best_hits && seed.second > best->second))
       best = &seed, best_hits = hits;
   }
+  if (static_cast<double>(best_hits) < closed * rays_of_seed) return {};
   return scaled(best->first, exponent);
 }
 

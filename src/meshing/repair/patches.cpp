@@ -18,7 +18,12 @@ namespace {
 
 /// Above this, the rest of a surface surrounds a sheet: a half or less where the sheet is a part of the wall.
 constexpr double surrounded = 0.75;
+/// A patch that surrounds its own border more than this is a shell with a hole: that fills half of the view
+/// there.
+constexpr double shell = 0.35;
 constexpr std::size_t samples_of_patch = 9;
+/// Within this part of the size, components touch.
+constexpr double touching = 1e-11;
 /// Solid angles that are computed in all, about ten seconds: where there are more patches, those beyond the
 /// largest ones are debris.
 constexpr std::size_t most_angles = 200'000'000;
@@ -46,23 +51,40 @@ bool is_flat(const Facets& s, const std::vector<std::uint32_t>& patch) {
   });
 }
 
-/// The components of a surface, connected by points.
+/// The components of a surface: patches connected by edges of two triangles that are closed by themselves,
+/// and the others, connected by edges of any number.
 class Components {
  public:
   explicit Components(const Facets& s) : surface_(s) {
-    Joined_sets points(s.points.size());
-    for (const Facet& f : s.facets)
-      if (f.part != Part::sheet)
-        points.join(f.corners[0], f.corners[1]), points.join(f.corners[0], f.corners[2]);
+    const auto uses = edge_uses(s.facets);
+    Joined_sets patches = connected(s.facets, uses);
+    std::vector<bool> is_closed(s.facets.size(), true);
+    for_each_edge(uses, [&](std::span<const Edge_use> edge) {
+      if (edge.size() == 2) {  // of one patch
+        if (edge[0].forward == edge[1].forward) is_closed[patches.find(edge[0].facet)] = false;
+        return;
+      }
+      std::map<std::uint32_t, int> sums;
+      for (const Edge_use& use : edge) sums[patches.find(use.facet)] += use.forward ? 1 : -1;
+      for (const auto& [patch, sum] : sums)
+        if (sum != 0) is_closed[patch] = false;
+    });
+    Joined_sets sets = patches;
+    for_each_edge(uses, [&](std::span<const Edge_use> edge) {
+      std::uint32_t first = none;
+      for (const Edge_use& use : edge) {
+        if (is_closed[patches.find(use.facet)]) continue;
+        if (first == none) first = use.facet;
+        sets.join(first, use.facet);
+      }
+    });
     std::map<std::uint32_t, std::uint32_t> number;
     for (std::uint32_t f = 0; f < s.facets.size(); ++f) {
       if (s.facets[f].part == Part::sheet) {
         of_.push_back(none);
         continue;
       }
-      const auto at =
-          number.insert({points.find(s.facets[f].corners[0]), static_cast<std::uint32_t>(number.size())})
-              .first;
+      const auto at = number.insert({sets.find(f), static_cast<std::uint32_t>(number.size())}).first;
       of_.push_back(at->second);
     }
     facets_.resize(number.size());
@@ -82,14 +104,21 @@ class Components {
     for (const std::uint32_t f : facets_[c]) sum += signed_volume(surface_, {&surface_.facets[f], 1}, origin);
     return sum;
   }
-  /// True if a point lies inside a component, whatever its orientation.
-  bool encloses(std::size_t c, const Point<3>& p) const {
-    double sum = 0;
-    for (const std::uint32_t f : facets_[c]) {
-      const Facet& t = surface_.facets[f];
-      sum += winding_number(surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2), p);
+  /// True if a component lies inside another one, whatever its orientation. If they meet, most of it must.
+  bool encloses(std::size_t outer, std::size_t inner, bool they_meet) const {
+    const std::vector<std::uint32_t>& facets = facets_[inner];
+    const std::size_t samples = they_meet ? std::min(samples_of_patch, facets.size()) : 1;
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+      const Point<3> p = centre(surface_, surface_.facets[facets[i * facets.size() / samples]]);
+      double sum = 0;
+      for (const std::uint32_t f : facets_[outer]) {
+        const Facet& t = surface_.facets[f];
+        sum += winding_number(surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2), p);
+      }
+      inside += std::abs(sum) > 0.5;
     }
-    return std::abs(sum) > 0.5;
+    return static_cast<double>(inside) > surrounded * static_cast<double>(samples);
   }
 
  private:
@@ -101,9 +130,9 @@ class Components {
 struct Extent {
   Point<3> low, high;
 
-  bool contains(const Point<3>& p) const {
+  bool contains(const Extent& other, double within) const {
     for (std::size_t k = 0; k < 3; ++k)
-      if (p[k] < low[k] || p[k] > high[k]) return false;
+      if (other.low[k] < low[k] - within || other.high[k] > high[k] + within) return false;
     return true;
   }
 };
@@ -119,12 +148,11 @@ Extent extent_of(const Facets& s, const std::vector<std::uint32_t>& facets) {
   return e;
 }
 
-/// Calls visit(f, g) for triangles of different components that touch up to rounding. It may part a component in
-/// another one from the wall on which it stands.
+/// Calls visit(f, g) for triangles of different components that touch up to rounding, which may part a
+/// component in another one from the wall on which it stands.
 template <class Visit>
 void for_each_touching_pair(const Facets& surface, const Components& components, const Visit& visit) {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
-  constexpr double touching = 1e-11;
   const double within = touching * surface.size;
   std::vector<Box> boxes;
   for (std::uint32_t f = 0; f < surface.facets.size(); ++f) {
@@ -144,7 +172,8 @@ void for_each_touching_pair(const Facets& surface, const Components& components,
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
     if (components.of(a.info()) == components.of(b.info())) return;
     const Facet &f = surface.facets[a.info()], &g = surface.facets[b.info()];
-    if (distance_of(corners(f), corners(g), names(f), names(g)).distance <= within) visit(a.info(), b.info());
+    const Near_triangles near = distance_of(corners(f), corners(g), names(f), names(g));
+    if (near.common_corners > 0 || near.distance <= within) visit(a.info(), b.info());
   });
 }
 
@@ -208,18 +237,23 @@ Oriented orient_by_nesting(Facets& surface,
   if (components.size() > 1) for_each_touching_pair(surface, components, meet);
   for (auto& others : meets) std::sort(others.begin(), others.end());
   std::vector<Extent> extents;
-  for (std::size_t c = 0; c < components.size(); ++c)
+  std::vector<double> volumes;
+  for (std::size_t c = 0; c < components.size(); ++c) {
     extents.push_back(extent_of(surface, components.facets(c)));
+    volumes.push_back(components.volume(c));
+  }
   Oriented result;
   std::vector<std::uint32_t> turned;
   for (std::size_t c = 0; c < components.size(); ++c) {
-    const Point<3> place = surface.corner(surface.facets[components.facets(c)[0]], 0);
     bool is_hole = false;
-    for (std::size_t other = 0; other < components.size(); ++other)
-      if (other != c && extents[other].contains(place) &&
-          !std::binary_search(meets[c].begin(), meets[c].end(), other) && components.encloses(other, place))
-        is_hole = !is_hole;
-    if ((components.volume(c) < 0) != is_hole)
+    for (std::uint32_t other = 0; other < components.size(); ++other) {
+      if (other == c || !extents[other].contains(extents[c], touching * surface.size)) continue;
+      // One that meets it from inside may be a part of the body or a hollow in it: the file's directions say.
+      const bool they_meet = std::binary_search(meets[c].begin(), meets[c].end(), other);
+      if (they_meet && (volumes[c] < 0) == (volumes[other] < 0)) continue;
+      if (components.encloses(other, c, they_meet)) is_hole = !is_hole;
+    }
+    if ((volumes[c] < 0) != is_hole)
       turned.insert(turned.end(), components.facets(c).begin(), components.facets(c).end());
   }
   for (const std::uint32_t f : turned) {
@@ -241,9 +275,13 @@ Found find_inner_sheets(Facets& surface) {
   Joined_sets sets = connected(surface.facets, uses);
   // Without a sheet, fewer edges have an odd number of triangles.
   std::vector<std::ptrdiff_t> odd_edges(surface.facets.size(), 0);
+  std::vector<bool> is_at_border(surface.facets.size(), false);
   for_each_edge(uses, [&](std::span<const Edge_use> edge) {
     if (edge.size() == 2) return;
-    for (const Edge_use& use : edge) odd_edges[sets.find(use.facet)] += edge.size() % 2 == 1 ? 1 : -1;
+    for (const Edge_use& use : edge) {
+      odd_edges[sets.find(use.facet)] += edge.size() % 2 == 1 ? 1 : -1;
+      is_at_border[use.facet] = true;
+    }
   });
   std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
   for (std::uint32_t f = 0; f < surface.facets.size(); ++f)
@@ -258,11 +296,22 @@ Found find_inner_sheets(Facets& surface) {
   Found found;
   for (const auto& patch : patches) {
     const std::uint32_t root = sets.find(patch[0]);
+    double own = 0;
+    std::size_t borders = 0;
+    for (const std::uint32_t f : patch) {
+      if (!is_at_border[f] || borders == samples_of_patch) continue;
+      own += std::abs(winding_number_if(surface, centre(surface, surface.facets[f]),
+                                        [&](std::uint32_t g) { return g != f && sets.find(g) == root; }));
+      ++borders;
+    }
+    if (own > shell * static_cast<double>(borders)) continue;
     std::size_t inside = 0, samples = std::min(samples_of_patch, patch.size());
     for (std::size_t i = 0; i < samples; ++i) {
       const Facet& f = surface.facets[patch[i * patch.size() / samples]];
-      const double rest = winding_number_if(surface, centre(surface, f),
-                                            [&](std::uint32_t g) { return sets.find(g) != root; });
+      const double rest = winding_number_if(surface, centre(surface, f), [&](std::uint32_t g) {
+        // One in the same place counts as a half, whose sign is a matter of rounding.
+        return sets.find(g) != root && sorted(surface.facets[g].corners) != sorted(f.corners);
+      });
       inside += std::abs(rest) > surrounded;
     }
     // A flat patch encloses nothing, also where it pokes through a wall.

@@ -3,6 +3,7 @@
 #include <cellwalk/internal/meshing/repair_surface.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -20,7 +21,7 @@
 #include "near_points.h"
 #include "parts.h"
 #include "patches.h"
-#include "sides.h"
+#include "prepare.h"
 #include "tidy.h"
 #include "wall_distance.h"
 
@@ -32,11 +33,10 @@ using namespace detail;
 /// Points that cuts made are joined with others nearer than this part of the size. Without it, rounding makes
 /// three cubes in general position cross for ever.
 constexpr double rounding_apart = 1e-9;
-/// Points nearer to a side than this part of the size lie on it, up to rounding.
-constexpr double on_side = 1e-11;
 /// A region is free if the surface surrounds it more often than this.
 constexpr double surrounded = 0.5;
 /// The volume of the regions agrees with that of the surface to this part of it.
+constexpr double volume_rounding = 1e-14;  // in parts of the cube of the size
 constexpr double volume_tolerance = 1e-9, volume_tolerance_welded = 1e-6;
 
 class Repair {
@@ -45,7 +45,11 @@ class Repair {
       : options_(options), mesh_(mesh), report_(report) {}
 
   Repaired_surface run(const Surface_soup& soup) {
-    prepare(soup);
+    Prepared prepared = prepare(soup, options_, report_, mesh_.limits.on_wait);
+    surface_ = std::move(prepared.surface), given_ = std::move(prepared.given);
+    caps_ = std::move(prepared.caps), one_sided_ = std::move(prepared.one_sided);
+    if (surface_.facets.empty()) refuse_nothing();
+    wait();
     const auto crossing = crossing_pairs(surface_);
     orient(crossing);
     oriented_ = surface_;
@@ -72,64 +76,11 @@ class Repair {
     if (mesh_.limits.on_wait) mesh_.limits.on_wait();
   }
 
-  /// Triangles that collapsed, or are given twice. Sheets are marked.
-  void leave_out() {
-    note("collinear", "with all corners on one line left out", leave_out_collinear(surface_), "facet",
-         "facets");
-    const Copies copies = settle_copies(surface_);
-    note("repeated", "given twice left out", copies.repeated, "facet", "facets");
-    sheets_.add(copies.sheets);
-  }
-
-  /// The triangles of the file, with caps, and sheets apart.
-  void prepare(const Surface_soup& soup) {
-    surface_ = read_facets(soup, report_.changes);
-    report_.size = surface_.size;
-    given_ = surface_;
-    leave_out();
-    const Found seams = join_seams(surface_, options_.seam * surface_.size);
-    if (seams.count != 0) {
-      say("seams",
-          fmt::format("{} of seams joined with others, the farthest by {:.2g}",
-                      counted(seams.count, "point", "points"), seams.measured * surface_.size),
-          seams);
-      leave_out();
-    }
-    const Found split = split_uneven_sides(surface_, options_.seam * surface_.size, on_side * surface_.size);
-    if (split.count != 0) {
-      say("split",
-          fmt::format("{} split at {} on {}, the farthest off by {:.2g}",
-                      counted(split.count, "side", "sides"), split.count == 1 ? "a point" : "points",
-                      split.count == 1 ? "it" : "them", split.measured * surface_.size),
-          split);
-      leave_out();
-    }
-    const Turned turned = turn_to_agree(surface_);
-    note("turned", "turned to agree with their neighbours", turned.facets, "facet", "facets");
-    note("one_sided", "of one-sided bands, which bound nothing", turned.one_sided, "facet", "facets");
-    sheets_.add(find_inner_sheets(surface_));
-    set_sheets_aside();
-    wait();
-    caps_ = add_caps(surface_);
-    leave_out_collinear(surface_);  // parts of caps between points on a line
-    if (surface_.facets.empty()) refuse_nothing();
-    wait();
-  }
-
-  void set_sheets_aside() {
-    const std::size_t count = number_connected(surface_.facets, Part::sheet);
-    if (count == 0) return;
-    const std::string what =
-        fmt::format("{} of {}", counted(count, "sheet", "sheets"), counted(sheets_.count, "facet", "facets"));
-    if (options_.sheets == Sheets::refuse)
-      refuse_surface(
-          fmt::format("has {} inside, or given on both sides{}; remove them, or keep them as "
-                      "membranes (--sheets keep)",
-                      what, sheets_.where()));
-    if (options_.sheets == Sheets::open)
-      std::erase_if(surface_.facets, [](const Facet& f) { return f.part == Part::sheet; });
-    say("sheets", what + (options_.sheets == Sheets::open ? " opened" : " kept as membranes"), sheets_);
-    report_.changes.back().count = count;
+  /// The limit of time is one for all meshes.
+  double seconds_left() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    constexpr double least = 1;
+    return std::max(least, mesh_.limits.seconds - elapsed.count());
   }
 
   void orient(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing) {
@@ -139,7 +90,15 @@ class Repair {
           {"turned", "the surface was inside out: all facets turned", oriented.facets.count, {}, 0});
     else
       note("turned", "of components turned to bound a volume", oriented.facets, "facet", "facets");
+    uneven_ = oriented.uneven;
     note("uneven", "at which the directions of facets do not cancel", oriented.uneven, "edge", "edges");
+  }
+
+  /// Where the reason of a leak is to be looked for.
+  std::string hint() const {
+    if (one_sided_.count != 0) return "; it has a one-sided band" + one_sided_.where();
+    if (uneven_.count != 0) return "; edges at which facets do not match are left" + uneven_.where();
+    return "";
   }
 
   void refuse_nothing() const {
@@ -149,24 +108,27 @@ class Repair {
                                                            counted(caps_.size(), "border", "borders"))));
   }
 
-  /// The mesh of a box, and what is free in it.
+  /// The mesh of a box, and what is free in it. Where triangles cross for ever, or no mesher succeeds, near
+  /// points of the file become one.
   Free_space free_space(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing) {
     const Facets uncut = surface_;
     try {
       cut(crossing);
       return mesh_and_choose(volume_tolerance);
     } catch (const Error& error) {
-      if (error.code() != Error_code::not_certified || !(options_.weld > 0)) throw;
-      // The last resort: near points of the file become one.
+      const bool is_crossing = dynamic_cast<const Still_crossing*>(&error) != nullptr;
+      if ((error.code() != Error_code::not_certified && !is_crossing) || !(options_.weld > 0)) throw;
       const std::string reason = error.what();
       surface_ = uncut;
       const Found welded = weld(surface_, options_.weld * surface_.size, true);
       if (welded.count == 0) throw;
       say("welded",
-          fmt::format("no mesher succeeded ({}): {} joined with others, the farthest by {:.2g}", reason,
-                      counted(welded.count, "point", "points"), welded.measured * surface_.size),
+          fmt::format(
+              "without joining near points, it failed ({}): {} joined with others, the farthest by {:.2g}",
+              reason, counted(welded.count, "point", "points"), welded.measured * surface_.size),
           welded);
-      leave_out();
+      leave_out_collinear(surface_);
+      settle_copies(surface_);
       cut(crossing_pairs(surface_));
       return mesh_and_choose(volume_tolerance_welded);
     }
@@ -192,6 +154,7 @@ class Repair {
     compact(surface_);
     Tetrahedralize_options coarse = mesh_;
     coarse.quality = coarse.cell_size = 0;
+    coarse.limits.seconds = seconds_left();
     Free_space space;
     space.mesh = mesh_between(surface_, Frame::box, coarse, report_.tolerance);
     space.labels = labels_of(surface_.facets);
@@ -216,7 +179,7 @@ class Repair {
 
   void choose_by_winding(Free_space& space, double tolerance) {
     const Regions regions = find_regions(space.mesh, space.labels);
-    const Windings windings = wind(space.mesh, regions, oriented_);
+    const Windings windings = wind(space.mesh, regions, oriented_, hint());
     const Point<3> origin = oriented_.points[oriented_.facets[0].corners[0]];
     std::vector<Facet> bounding;
     for (const Facet& f : oriented_.facets)
@@ -230,11 +193,19 @@ class Repair {
       largest += is_free ? regions.regions[r].volume : 0;
     }
     if (free == 0) refuse_nothing();
-    if (std::abs(windings.volume - expected) > tolerance * std::max(largest, std::abs(expected)))
-      refuse_surface(fmt::format(
-          "bounds no volume: its regions have {:g}, and its facets enclose {:g}; close its holes, or "
-          "name a point of the free space (--inside)",
-          windings.volume, expected));
+    const double rounding = volume_rounding * surface_.size * surface_.size * surface_.size;
+    if (std::abs(windings.volume - expected) > tolerance * std::max(largest, std::abs(expected)) + rounding)
+      refuse_surface(
+          fmt::format("bounds no volume: its regions have {:g}, and its facets enclose {:g} more or less{}; "
+                      "close its holes, or "
+                      "name a point of the free space (--inside)",
+                      windings.volume, expected - windings.volume, hint()));
+    if (windings.inside_out.count != 0)
+      report_.changes.push_back({"inside_out",
+                                 fmt::format("a volume of {:g} is not free, since the facets around it are "
+                                             "inside out{}",
+                                             windings.inside_out_volume, windings.inside_out.where()),
+                                 windings.inside_out.count, windings.inside_out.places, 0});
     report_.winding_error = windings.error;
     for (const std::uint32_t r : regions.of) space.is_free.push_back(windings.of[r] > surrounded);
     report_.changes.push_back(
@@ -288,7 +259,9 @@ class Repair {
     Free_space fine;
     try {
       std::string tolerance;
-      fine.mesh = mesh_between(walls, Frame::none, mesh_, tolerance);
+      Tetrahedralize_options bounds = mesh_;
+      bounds.limits.seconds = seconds_left();
+      fine.mesh = mesh_between(walls, Frame::none, bounds, tolerance);
       if (report_.tolerance.empty()) report_.tolerance = tolerance;
     } catch (const Error& error) {
       if (error.code() != Error_code::not_certified) throw;
@@ -326,10 +299,11 @@ class Repair {
   const Repair_options& options_;
   const Tetrahedralize_options& mesh_;
   Repair_report& report_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Facets given_;     // the triangles of the file
   Facets surface_;   // what becomes of them
   Facets oriented_;  // before cuts
-  Found sheets_;
+  Found one_sided_, uneven_;
   std::vector<Repaired_part> caps_;
 };
 

@@ -103,9 +103,10 @@ Copies settle_copies(Facets& surface) {
   Copies result;
   for (std::uint32_t i = 0; i < none; ++i) {
     const Part_of_pairs& part = parts[sets.find(i)];
-    const bool is_sheet = part.own > 0 && part.alike < 0;
-    // With one of two, an odd number of others is even: they close the surface. Two solids that touch or overlap
-    // have both.
+    // A sheet has an edge of its own, and ends at walls; at the border of an open surface, it has one, too.
+    const bool is_sheet = part.own > 0 && part.alike < 0 && part.odd <= part.even;
+    // With one of two, an odd number of others is even: the surface is closed. Two solids that touch or
+    // overlap have both.
     const bool is_repeated = part.odd > part.even || part.even == 0;
     if (!is_sheet && !is_repeated) continue;
     is_left_out[pairs[i].second] = true;

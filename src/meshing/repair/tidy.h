@@ -28,9 +28,9 @@ struct Copies {
   Found repeated, sheets;
 };
 
-/// Decides about triangles of the file that are given twice, in connected parts. A part given on both sides, with
-/// an edge of its own, is a sheet. Elsewhere one of two is left out if that closes the surface; where two solids
-/// touch or overlap, both stay.
+/// Decides about triangles of the file that are given twice, in connected parts. A part given on both sides,
+/// with an edge of its own, is a sheet. Elsewhere one of two is left out if that closes the surface; where
+/// two solids touch or overlap, both stay.
 Copies settle_copies(Facets& surface);
 
 /// Replaces each point by another, and leaves out triangles that collapse.
