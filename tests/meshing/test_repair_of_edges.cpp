@@ -117,7 +117,7 @@ TEST(RepairOfEdges, RefusalsNameTheBand) {
     band.facets.push_back({a, c, b}), band.facets.push_back({b, c, d});
   }
   const std::string problem = refusal([&] { repair(join(cube({8, 0, 0}, 2), band)); });
-  EXPECT_NE(problem.find("one-sided band, the first at"), std::string::npos) << problem;
+  EXPECT_NE(problem.find("one-sided band"), std::string::npos) << problem;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 constexpr double surrounded = 0.75;
 /// A patch that surrounds its own border more than this is a shell with a hole: that fills half of the view
 /// there.
-constexpr double shell = 0.35;
+constexpr double shell = 0.3;
 constexpr std::size_t samples_of_patch = 9;
 /// Within this part of the size, components touch.
 constexpr double touching = 1e-11;
@@ -273,19 +273,23 @@ Oriented orient_by_nesting(Facets& surface,
 Found find_inner_sheets(Facets& surface) {
   const auto uses = edge_uses(surface.facets);
   Joined_sets sets = connected(surface.facets, uses);
-  // Without a sheet, fewer edges have an odd number of triangles.
-  std::vector<std::ptrdiff_t> odd_edges(surface.facets.size(), 0);
+  // Without a sheet, more edges have an even number of triangles, which cancel.
+  std::vector<std::ptrdiff_t> mended_edges(surface.facets.size(), 0);
   std::vector<bool> is_at_border(surface.facets.size(), false);
   for_each_edge(uses, [&](std::span<const Edge_use> edge) {
     if (edge.size() == 2) return;
     for (const Edge_use& use : edge) {
-      odd_edges[sets.find(use.facet)] += edge.size() % 2 == 1 ? 1 : -1;
+      const std::uint32_t root = sets.find(use.facet);
+      std::ptrdiff_t rest = 0;
+      for (const Edge_use& other : edge)
+        if (sets.find(other.facet) != root) rest += other.forward ? 1 : -1;
+      mended_edges[root] += edge.size() % 2 == 1 && rest == 0 ? 1 : -1;
       is_at_border[use.facet] = true;
     }
   });
   std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
   for (std::uint32_t f = 0; f < surface.facets.size(); ++f)
-    if (surface.facets[f].part != Part::sheet && odd_edges[sets.find(f)] > 0)
+    if (surface.facets[f].part != Part::sheet && mended_edges[sets.find(f)] > 0)
       by_root[sets.find(f)].push_back(f);
   std::vector<std::vector<std::uint32_t>> patches;
   for (auto& [root, patch] : by_root) patches.push_back(std::move(patch));
