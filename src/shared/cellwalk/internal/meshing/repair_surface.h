@@ -74,7 +74,7 @@ std::optional<Point<3>> lumen_around(const Surface_soup& surface);
 ///        rounds of cuts, or whose walls would move farther than allowed; with a place and a remedy
 /// \throw Error(usage) for options out of range, or if there is no TetGen
 /// \throw Error(not_certified) as tetrahedralize()
-/// Cost: about 450 us a triangle, in the mean.
+/// Cost: 130 us a triangle for 10^5 of them, 290 us for 10^6; two thirds are TetGen's.
 Repaired_surface repair_surface(const Surface_soup& surface, const Repair_options& options,
                                 const Tetrahedralize_options& mesh, Repair_report& report);
 
