@@ -2,29 +2,24 @@
 // Constrained triangulations of the triangles that cross, with exact constructions.
 #include "crossings.h"
 
-#define CGAL_NO_CDT_2_WARNING
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/intersections.h>
 #include <boost/variant.hpp>
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <unordered_map>
 #include <variant>
 
+#include "cut_plane.h"
+#include "edges.h"
 #include "near_points.h"
 #include "sides.h"
 
 namespace cellwalk::detail {
 namespace {
 
-using E = CGAL::Exact_predicates_exact_constructions_kernel;
-using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, E>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-    E, CGAL::Triangulation_data_structure_2<Vertex_base, CGAL::Constrained_triangulation_face_base_2<E>>,
-    CGAL::Exact_intersections_tag>;
+using E = Exact_kernel;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 constexpr int most_rounds = 12, most_passes = 12;
@@ -44,9 +39,6 @@ void visit_found(const Visitor& visitor, const std::variant<T...>& value) {
   std::visit(visitor, value);
 }
 
-/// A point or segment in which a triangle meets others, twice the same point for a point.
-using Trace = std::pair<E::Point_3, E::Point_3>;
-
 /// The traces of an intersection.
 struct Collect {
   using result_type = void;
@@ -64,83 +56,6 @@ struct Collect {
 
 double round(const E::FT& x) { return CGAL::to_double(CGAL::exact(x)); }  // equal numbers alike
 
-/// A triangle seen along the axis that is the nearest to its normal, and its parts.
-class Cut_triangle {
- public:
-  explicit Cut_triangle(const E::Triangle_3& triangle) : plane_(triangle.supporting_plane()) {
-    // Of a needle, the rounded normal may be 0, or along an axis in its plane.
-    const std::array<E::FT, 3> normal{plane_.a(), plane_.b(), plane_.c()};
-    for (int k = 1; k < 3; ++k)
-      if (CGAL::abs(normal[k]) > CGAL::abs(normal[axis_])) axis_ = k;
-    for (int i = 0; i < 3; ++i) corner_[i] = parts_.insert(seen(triangle[i]));
-    is_turned_ = !E().left_turn_2_object()(corner_[0]->point(), corner_[1]->point(), corner_[2]->point());
-  }
-
-  void insert(const Trace& trace) {
-    if (trace.first == trace.second)
-      parts_.insert(seen(trace.first));
-    else
-      parts_.insert_constraint(seen(trace.first), seen(trace.second));
-  }
-
-  /// Calls visit(k, p) for each point p on the side from corner k to the next.
-  template <class Visit>
-  void for_each_point_on_a_side(const Visit& visit) const {
-    for (auto v = parts_.finite_vertices_begin(); v != parts_.finite_vertices_end(); ++v) {
-      if (is_corner(v)) continue;
-      for (int k = 0; k < 3; ++k)
-        if (E().collinear_2_object()(corner_[k]->point(), v->point(), corner_[(k + 1) % 3]->point()))
-          visit(k, lifted(v->point()));
-    }
-  }
-
-  /// Appends the parts of a facet, with points numbered by `number`.
-  template <class Number>
-  void append(const Facet& facet, const Number& number, std::vector<Facet>& result) {
-    for (int i = 0; i < 3; ++i) corner_[i]->info() = facet.corners[i];
-    for (auto v = parts_.finite_vertices_begin(); v != parts_.finite_vertices_end(); ++v)
-      if (!is_corner(v)) v->info() = number(lifted(v->point()));
-    for (auto face = parts_.finite_faces_begin(); face != parts_.finite_faces_end(); ++face) {
-      Facet part = facet;
-      for (int i = 0; i < 3; ++i) part.corners[i] = face->vertex(i)->info();
-      if (is_turned_) turn(part);
-      const Triangle& c = part.corners;
-      if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) result.push_back(part);
-    }
-  }
-
-  /// A triangle whose corners are moved into this one's plane along its axis, if they are within a distance
-  /// of it. None are if all are and it would have no area.
-  E::Triangle_3 snapped(const E::Triangle_3& other, double distance) const {
-    std::array<E::Point_3, 3> p{other[0], other[1], other[2]};
-    for (E::Point_3& q : p) {
-      const E::Point_3 on_plane = lifted(seen(q));
-      if (std::abs(CGAL::to_double(on_plane[axis_] - q[axis_])) <= distance) q = on_plane;
-    }
-    return E().collinear_3_object()(p[0], p[1], p[2]) ? other : E::Triangle_3(p[0], p[1], p[2]);
-  }
-
- private:
-  E::Point_2 seen(const E::Point_3& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
-  E::Point_3 lifted(const E::Point_2& p) const {
-    const std::array<E::FT, 3> normal{plane_.a(), plane_.b(), plane_.c()};
-    const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
-    std::array<E::FT, 3> x;
-    x[u] = p.x(), x[v] = p.y();
-    x[axis_] = -(normal[u] * p.x() + normal[v] * p.y() + plane_.d()) / normal[axis_];
-    return {x[0], x[1], x[2]};
-  }
-  bool is_corner(const Triangulation::Vertex_handle v) const {
-    return v == corner_[0] || v == corner_[1] || v == corner_[2];
-  }
-
-  E::Plane_3 plane_;
-  int axis_ = 0;
-  bool is_turned_ = false;
-  Triangulation parts_;
-  std::array<Triangulation::Vertex_handle, 3> corner_;
-};
-
 /// One round of cuts.
 class Round {
  public:
@@ -151,9 +66,11 @@ class Round {
   }
 
   void cut(const Pairs& pairs) {
+    make_planes(pairs);
     for (const auto& [f, g] : pairs) {
+      if (planes_of_.at(f).plane == planes_of_.at(g).plane) continue;  // their sides cut both
       const E::Triangle_3 s = exact(f), t = exact(g);
-      Cut_triangle &at_f = triangle(f), &at_g = triangle(g);
+      Cut_plane &at_f = plane(f), &at_g = plane(g);
       insert(CGAL::intersection(s, at_f.snapped(t, apart_)), at_f);
       insert(CGAL::intersection(at_g.snapped(s, apart_), t), at_g);
     }
@@ -163,11 +80,14 @@ class Round {
       return point({round(p.x()), round(p.y()), round(p.z())});
     };
     for (std::uint32_t f = 0; f < surface_.facets.size(); ++f) {
-      const auto at = cut_.find(f);
-      if (at == cut_.end())
-        result.push_back(surface_.facets[f]);
-      else
-        at->second.append(surface_.facets[f], number, result);
+      const Facet& facet = surface_.facets[f];
+      const auto at = planes_of_.find(f);
+      if (at == planes_of_.end()) {
+        result.push_back(facet);
+        continue;
+      }
+      for (const Triangle& part : planes_[at->second.plane].parts(at->second.member, number))
+        result.push_back({part, facet.part, facet.number});
     }
     surface_.facets = std::move(result);
   }
@@ -183,30 +103,71 @@ class Round {
     return std::minmax({t[k], t[(k + 1) % 3]});
   }
 
-  Cut_triangle& triangle(std::uint32_t f) {
-    const auto at = cut_.find(f);
-    if (at != cut_.end()) return at->second;
-    return cut_.try_emplace(f, exact(f)).first->second;
+  /// Where a facet is.
+  struct Place {
+    std::size_t plane, member;
+  };
+
+  void add_to(std::size_t plane, std::uint32_t f) {
+    planes_of_.insert({f, {plane, planes_[plane].add(exact(f), surface_.facets[f].corners)}});
+  }
+  void add_alone(std::uint32_t f) {
+    planes_.emplace_back(exact(f));
+    add_to(planes_.size() - 1, f);
+  }
+  Cut_plane& plane(std::uint32_t f) {
+    if (!planes_of_.contains(f)) add_alone(f);
+    return planes_[planes_of_.at(f).plane];
+  }
+
+  /// Pairs that lie in a plane, each in that of the other, share it: that of the largest triangle.
+  void make_planes(const Pairs& pairs) {
+    Joined_sets sets(surface_.facets.size());
+    for (const auto& [f, g] : pairs) {
+      const E::Triangle_3 s = exact(f), t = exact(g);
+      if (Cut_plane(s).contains(t, apart_) && Cut_plane(t).contains(s, apart_)) sets.join(f, g);
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> together;
+    for (const auto& [f, g] : pairs)
+      for (const std::uint32_t facet : {f, g}) together[sets.find(facet)].push_back(facet);
+    for (auto& [root, facets] : together) {
+      std::sort(facets.begin(), facets.end());
+      facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+      const std::uint32_t largest =
+          *std::max_element(facets.begin(), facets.end(), [&](std::uint32_t f, std::uint32_t g) {
+            return area(surface_, surface_.facets[f]) < area(surface_, surface_.facets[g]);
+          });
+      const std::size_t own = planes_.size();
+      add_alone(largest);
+      for (const std::uint32_t f : facets) {
+        if (f == largest) continue;
+        if (planes_[own].contains(exact(f), apart_))
+          add_to(own, f);
+        else
+          add_alone(f);
+      }
+    }
   }
 
   template <class Found>
-  static void insert(const Found& found, Cut_triangle& triangle) {
+  static void insert(const Found& found, Cut_plane& plane) {
     if (!found) return;
     std::vector<Trace> traces;
     visit_found(Collect{&traces}, *found);
-    for (const Trace& trace : traces) triangle.insert(trace);
+    for (const Trace& trace : traces) plane.insert(trace);
   }
 
   /// Points on sides belong to all triangles with that side.
   void cut_neighbours() {
     std::map<Side, std::vector<E::Point_3>> points;
-    for (const auto& [f, parts] : cut_)
-      parts.for_each_point_on_a_side(
-          [&, f = f](int k, const E::Point_3& p) { points[side(f, k)].push_back(p); });
+    for (const auto& [f, place] : planes_of_)
+      for (int k = 0; k < 3; ++k)
+        for (const E::Point_3& p : planes_[place.plane].points_on_side(place.member, k))
+          points[side(f, k)].push_back(p);
     for (std::uint32_t f = 0; f < surface_.facets.size() && !points.empty(); ++f)
       for (int k = 0; k < 3; ++k)
         if (const auto at = points.find(side(f, k)); at != points.end())
-          for (const E::Point_3& p : at->second) triangle(f).insert({p, p});
+          for (const E::Point_3& p : at->second) plane(f).insert({p, p});
   }
 
   std::uint32_t point(const Point<3>& p) {
@@ -218,7 +179,8 @@ class Round {
   Facets& surface_;
   double apart_;
   std::map<Point<3>, std::uint32_t> number_;
-  std::map<std::uint32_t, Cut_triangle> cut_;
+  std::deque<Cut_plane> planes_;
+  std::map<std::uint32_t, Place> planes_of_;
 };
 
 /// Makes corners that lie on the side of another triangle, up to rounding, corners of all triangles with that
