@@ -101,7 +101,7 @@ void part(Triangles& triangles, Random& random, double distance) {
 }
 
 TEST(DamagedRings, ComeBackWithTheirVolume) {
-  constexpr std::uint64_t cases = 120;
+  constexpr std::uint64_t cases = 60;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
