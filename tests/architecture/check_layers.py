@@ -22,7 +22,7 @@ INSTALL = Path("cmake/CellwalkInstall.cmake")
 # Headers whose floor neither a source of that name nor their own name tells.
 HEADER_FLOORS = {"edge/swept_triangle.h": "exact", "edge/sweep_along.h": "sweep", "environment/planes.h": "snapshot",
                  "environment/flat_array.h": "snapshot", "environment/facet_table.h": "soup", "reshape/move.h": "residents",
-                 "environment/build_map.h": "map", "environment/cell_check.h": "certify",
+                 "environment/build_map.h": "map", "environment/cell_list.h": "snapshot", "environment/cell_check.h": "certify",
                  "meshing/mesher_limits.h": "child",
                  "io/build_features.h": "mesh", "io/parse_surface.h": "mesh", "io/planar_file.h": "mesh"}
 

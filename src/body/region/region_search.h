@@ -4,6 +4,8 @@
 #ifndef CELLWALK_BODY_REGION_REGION_SEARCH_H
 #define CELLWALK_BODY_REGION_REGION_SEARCH_H
 
+#include <cellwalk/internal/environment/cell_list.h>
+
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
@@ -18,7 +20,6 @@
 #include <utility>
 #include <vector>
 
-#include "cell_list.h"
 #include "clear_region.h"
 #include "cluster_flood.h"
 #include "cut_plane.h"

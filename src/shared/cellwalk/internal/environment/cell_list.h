@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The cells that a flood has found, in order.
-#ifndef CELLWALK_BODY_REGION_CELL_LIST_H
-#define CELLWALK_BODY_REGION_CELL_LIST_H
+#ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_LIST_H
+#define CELLWALK_INTERNAL_ENVIRONMENT_CELL_LIST_H
 
 #include <cellwalk/environment/snapshot.h>
 
@@ -53,4 +53,4 @@ class Cell_list {
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_BODY_REGION_CELL_LIST_H
+#endif  // CELLWALK_INTERNAL_ENVIRONMENT_CELL_LIST_H
