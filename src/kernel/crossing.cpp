@@ -237,6 +237,8 @@ Timed_point<D> timed_point(const Crossing<D>& crossing) {
 
 template <int D>
 Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact_time& time) {
+  if (time.fraction() && std::holds_alternative<Exact_root>(time.fraction()->source))
+    return Place<D>(p, target, Exact_time(time.rounded())).bounds();
   return Place<D>(p, target, time).bounds();
 }
 

@@ -62,7 +62,7 @@ constexpr double least_plain = 0x1p-300, largest_plain = 0x1p300;
 
 /// Scaled to length 1; 0 stays 0.
 template <std::size_t D>
-std::array<double, D> normalized(std::array<double, D> n) {
+std::array<double, D> of_length_1(std::array<double, D> n) {
   double largest = 0, squares = 0;
   for (const double x : n) largest = std::max(largest, std::abs(x));
   if (largest == 0) return n;
@@ -111,7 +111,7 @@ template <class... P>
 std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
   constexpr std::size_t D = sizeof...(P);
   const auto [plain, error] = plain_normal(points...);
-  if (error <= normal_width) return normalized(plain);
+  if (error <= normal_width) return of_length_1(plain);
   std::array<double, D> n;
   {
     const auto wide = interval_normal(points...);
@@ -121,14 +121,14 @@ std::array<double, sizeof...(P)> unit_normal_of(const P&... points) {
       width = std::max(width, wide[i].sup() - wide[i].inf());
       largest = std::max(largest, std::abs(n[i]));
     }
-    if (width <= normal_width * largest && largest > 0 && std::isfinite(largest)) return normalized(n);
+    if (width <= normal_width * largest && largest > 0 && std::isfinite(largest)) return of_length_1(n);
   }
   const auto exact = normal<Rational>(points...);
   Rational largest = 0;
   for (const Rational& x : exact) largest = std::max<Rational>(largest, abs(x));
   if (largest == 0) return {};
   for (std::size_t i = 0; i < D; ++i) n[i] = CGAL::to_double(Rational(exact[i] / largest));
-  return normalized(n);
+  return of_length_1(n);
 }
 
 }  // namespace

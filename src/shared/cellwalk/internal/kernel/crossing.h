@@ -5,6 +5,7 @@
 #ifndef CELLWALK_INTERNAL_KERNEL_CROSSING_H
 #define CELLWALK_INTERNAL_KERNEL_CROSSING_H
 
+#include <cellwalk/internal/kernel/exact_root.h>
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/internal/kernel/twofold.h>
 #include <cellwalk/kernel/point.h>
@@ -57,9 +58,10 @@ struct Timed_point {
 template <int D>
 Timed_point<D> timed_point(const Crossing<D>& crossing);
 
-/// The fraction of an Exact_time: a number, or the crossing from which it is computed once it is needed.
+/// The number of an Exact_time: a fraction, the crossing from which that is computed once it is needed, or
+/// the root of a polynomial, which need not be a fraction.
 struct Exact_fraction {
-  std::variant<Fraction, Crossing<2>, Crossing<3>> source;
+  std::variant<Fraction, Crossing<2>, Crossing<3>, Exact_root> source;
 };
 
 /// For each coordinate of a point of a motion, the greatest double that is not above it, and the least that
@@ -69,7 +71,8 @@ struct Point_bounds {
   Point<D> below, above;
 };
 
-/// The bounds of p + time (target - p).
+/// The bounds of p + time (target - p); for a time that is one of two roots of a polynomial, those of the
+/// point at the rounded time.
 /// \pre the point is finite
 template <int D>
 Point_bounds<D> bounds_at(const Point<D>& p, const Point<D>& target, const Exact_time& time);

@@ -62,7 +62,9 @@ Rational to_rational(const Fraction& fraction);
 /// \pre the fraction lies in the range of doubles
 Exact_time to_time(const Fraction& fraction);
 
+/// \pre the time is a double, or not one of two roots of a polynomial (Exact_root)
 Fraction to_fraction(const Exact_time& time);
+/// \pre as to_fraction()
 Rational to_rational(const Exact_time& time);
 
 /// Rounded towards 0.

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The stages of is_apart(): boxes, a direction that is known, nearest features in doubles, ring numbers.
+#include <cellwalk/internal/kernel/distance.h>
+#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/greatest_double.h>
+#include <cellwalk/internal/kernel/predicates.h>
+
+#include <limits>
+
+#include "filter.h"
+#include "ring_hulls.h"
+
+namespace cellwalk::detail {
+namespace {
+
+/// Whose direction is the normal of the wall.
+template <int D>
+Feature_pair plane_of(std::size_t corners_of_b) {
+  if (corners_of_b < D) return {};
+  return {vertex_feature(0), D == 2 ? edge_feature(0, 1) : facet_feature(0, 1, 2)};
+}
+
+/// \param nearest of the hulls in doubles; only the time depends on it
+template <int D>
+bool decide(const Ring_hulls<D>& hulls, const Feature_pair& nearest, Feature_pair& near,
+            Distance_counts& counts) {
+  ++counts.ring_pair;
+  if (hulls.parts(nearest)) {
+    near = nearest;
+    return true;
+  }
+  if (hulls.are_near(nearest)) return false;
+  --counts.ring_pair;
+  ++counts.ring_list;
+  const auto parting = hulls.find_parting();
+  if (parting) near = *parting;
+  return parting.has_value();
+}
+
+template <int D>
+typename Ring_hulls<D>::Corners ring_corners(std::span<const Point<D>> points) {
+  typename Ring_hulls<D>::Corners corners;
+  for (const Point<D>& x : points) corners.push_back(in_ring<D>(x));
+  return corners;
+}
+
+/// The point of a motion at a time.
+template <int D>
+typename Ring_hulls<D>::Corner ring_point(const Point<D>& from, const Point<D>& target, double time) {
+  typename Ring_hulls<D>::Corner x = in_ring<D>(from);
+  for (std::size_t k = 0; k < D; ++k) x[k] = Ring(x[k] + Ring(time) * Ring(Ring(target[k]) - x[k]));
+  return x;
+}
+
+}  // namespace
+
+template <int D>
+bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Feature_pair& near,
+              Distance_counts& counts) {
+  const Filter<D> filter(a, b, r);
+  if (filter.boxes_part()) {
+    ++counts.boxes;
+    return true;
+  }
+  const bool is_in_range = filter.is_in_range();
+  if (is_in_range) {
+    const bool is_known = is_pair<D>(near, a.size(), b.size());
+    const Feature_pair first = is_known ? near : plane_of<D>(b.size());
+    if ((is_known || first.a.size != 0) && filter.parts(first)) {
+      ++counts.planes;
+      near = first;
+      return true;
+    }
+  }
+  const Relative_nearest<D> nearest = nearest_features<D>(a, b);
+  if (is_in_range) {
+    if (filter.are_near(nearest.distance)) {
+      ++counts.near;
+      return false;
+    }
+    if (filter.parts(nearest.features)) {
+      ++counts.features;
+      near = nearest.features;
+      return true;
+    }
+  }
+  return decide(Ring_hulls<D>(ring_corners<D>(a), b, r), nearest.features, near, counts);
+}
+
+template bool is_apart<2>(std::span<const Point<2>>, std::span<const Point<2>>, double, Feature_pair&,
+                          Distance_counts&);
+template bool is_apart<3>(std::span<const Point<3>>, std::span<const Point<3>>, double, Feature_pair&,
+                          Distance_counts&);
+
+template <int D>
+bool is_apart_until(const Point<D>& from, const Point<D>& target, std::span<const Point<D>> still,
+                    double time, std::span<const Point<D>> b, double r) {
+  boost::container::small_vector<Point<D>, 4> rounded{from, point_on<D>(from, target, time)};
+  rounded.insert(rounded.end(), still.begin(), still.end());
+  typename Ring_hulls<D>::Corners corners = ring_corners<D>({rounded.data(), rounded.size()});
+  corners[1] = ring_point<D>(from, target, time);
+  Feature_pair near;
+  Distance_counts counts;
+  return decide(Ring_hulls<D>(std::move(corners), b, r),
+                nearest_features<D>({rounded.data(), rounded.size()}, b).features, near, counts);
+}
+
+template bool is_apart_until<2>(const Point<2>&, const Point<2>&, std::span<const Point<2>>, double,
+                                std::span<const Point<2>>, double);
+template bool is_apart_until<3>(const Point<3>&, const Point<3>&, std::span<const Point<3>>, double,
+                                std::span<const Point<3>>, double);
+
+template <int D>
+Vector<D> common_normal(const Point<D>& from, const Point<D>& target, double time,
+                        std::span<const Point<D>> still, std::span<const Point<D>> b) {
+  typename Ring_hulls<D>::Corners of_a{ring_point<D>(from, target, time)}, of_b = ring_corners<D>(b);
+  for (const Point<D>& x : still) of_a.push_back(in_ring<D>(x));
+  const Hulls<Ring, D> hulls{{of_a.data(), of_a.size()}, {of_b.data(), of_b.size()}};
+  const auto all_of = [](std::size_t size) { return size == 1 ? vertex_feature(0) : edge_feature(0, 1); };
+  const auto n = direction_of<Ring, D>(hulls, {all_of(of_a.size()), all_of(of_b.size())});
+  const bool leads_to_a = CGAL::sign(product(n, difference(of_a[0], of_b[0]))) == CGAL::POSITIVE;
+  Ring largest(0);
+  for (const Ring& x : n) {
+    const Ring size(CGAL::sign(x) == CGAL::NEGATIVE ? Ring(-x) : x);
+    if (largest < size) largest = size;
+  }
+  Vector<D> scaled;
+  for (std::size_t k = 0; k < D; ++k)
+    scaled[k] = to_double(Fraction(leads_to_a ? n[k] : Ring(-n[k]), largest));
+  return normalized(scaled);
+}
+
+template Vector<2> common_normal<2>(const Point<2>&, const Point<2>&, double, std::span<const Point<2>>,
+                                    std::span<const Point<2>>);
+template Vector<3> common_normal<3>(const Point<3>&, const Point<3>&, double, std::span<const Point<3>>,
+                                    std::span<const Point<3>>);
+
+template <int D>
+double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<D>> b) {
+  Feature_pair near;
+  Distance_counts counts;
+  return greatest_double(nearest_features<D>(a, b).distance, std::numeric_limits<double>::max(),
+                         [&](double r) { return is_apart<D>(a, b, r, near, counts); });
+}
+
+template double distance_rounded_down<2>(std::span<const Point<2>>, std::span<const Point<2>>);
+template double distance_rounded_down<3>(std::span<const Point<3>>, std::span<const Point<3>>);
+
+}  // namespace cellwalk::detail
