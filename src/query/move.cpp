@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "thick.h"
+
 namespace cellwalk {
 namespace {
 
@@ -72,16 +74,21 @@ Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, co
 
 template <int D>
 Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,
-                      const Point<D>& to, Touch touch, Edge_counts& counts) {
+                      const Point<D>& to, Touch touch, Edge_counts& counts, double radius) {
+  if (radius != 0) {
+    Sweep_options options;
+    options.touch = touch;
+    return answer_thick<D>(snapshot, locator, {from, to, {}, radius}, options, counts);
+  }
   return answer_move(snapshot, locator, from, to, touch, {}, counts);
 }
 
 template Answer<2> answer_move(const Snapshot<2>&, const Locator<2>&, const Point<2>&, const Point<2>&, Touch,
-                               Edge_counts&);
+                               Edge_counts&, double);
 template Answer<2> answer_move(const Snapshot<2>&, const Locator<2>&, const Point<2>&, const Point<2>&, Touch,
                                const Walk_method&, Edge_counts&);
 template Answer<3> answer_move(const Snapshot<3>&, const Locator<3>&, const Point<3>&, const Point<3>&, Touch,
-                               Edge_counts&);
+                               Edge_counts&, double);
 template Answer<3> answer_move(const Snapshot<3>&, const Locator<3>&, const Point<3>&, const Point<3>&, Touch,
                                const Walk_method&, Edge_counts&);
 

@@ -8,6 +8,8 @@
 #include <list>
 #include <vector>
 
+#include "thick.h"
+
 namespace cellwalk {
 namespace {
 
@@ -61,6 +63,9 @@ Answer<D> to_answer(const Sweep_result<D>& result) {
 template <int D>
 Answer<D> answer_sweep(const Snapshot<D>& snapshot, const Locator<D>& locator, const Edge_motion<D>& motion,
                        const Sweep_options& options, Edge_counts& counts) {
+  if (motion.radius != 0)
+    return answer_thick<D>(snapshot, locator, {motion.p, motion.target, motion.q, motion.radius}, options,
+                           counts);
   detail::check_finite(motion.target, "the target of a motion");
   if (options.search) detail::check_search(*options.search);
   const auto sweep = [&](const Start<D>& start, const Sweep_options& chosen) {

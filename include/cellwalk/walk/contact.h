@@ -39,6 +39,8 @@ struct Contact {
   std::uint32_t vertex = 0;                  ///< of a Body: the vertex that moves
   std::uint32_t feature = 0;  ///< of a Body: the number of its vertex, edge or face that meets the wall
   std::shared_ptr<const Exact_fraction> fraction;  ///< see exact_time()
+  /// Of a start that is nearer to a wall than a radius: how far it is from there, rounded down.
+  double distance = 0;
 
   /// The exact time. Walks report it rounded, as `time`; a bisection gives a time before it, and a walk with
   /// an inexact kernel one that is computed in doubles.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The sweep of an edge or a point with a radius. Theory: docs/radius.md.
+#ifndef CELLWALK_INTERNAL_EDGE_THICK_SWEEP_H
+#define CELLWALK_INTERNAL_EDGE_THICK_SWEEP_H
+
+#include <cellwalk/edge/chain.h>
+#include <cellwalk/walk/contact.h>
+
+#include <optional>
+
+namespace cellwalk::detail {
+
+/// The motion of a vertex from p to a target, alone or with an edge to a point q that stands still.
+template <int D>
+struct Thick_motion {
+  Point<D> p, target;
+  std::optional<Point<D>> q;
+  double radius = 0;  ///< finite, greater than 0
+};
+
+/// The first time at which the vertex or the edge is at the distance r from a wall and comes nearer.
+template <int D>
+struct Thick_result {
+  std::optional<Contact<D>> contact;  ///< none: the motion is free
+  /// The motion starts nearer than r to a wall: its contact is the nearest point of walls, at the time 0,
+  /// without a normal.
+  bool starts_close = false;
+};
+
+/// Exact in every position: the motion is free if and only if the hull of p, its target and q has a distance
+/// of at least r from every wall.
+/// \param snapshot in which the motion takes place
+/// \param start a free cell in whose closure p lies
+/// \param motion of finite points; the target and q may lie anywhere
+/// \param counts raised by the flood
+/// Degenerate cases: q may be p, the target may be p, p may pass q, and all may be collinear. A start at the
+/// distance r is free. Contact::point is the nearest point of the wall, Contact::normal the direction from
+/// there to the vertex or edge; Contact::cell is the start.
+/// Cost: that of a flood through the cells nearer than r, 20 to 60 ns a facet; 20 to 400 ns for each wall
+/// found, 2 us for one at the distance r, and some 40 us for a contact.
+template <int D>
+Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
+                            Edge_counts& counts);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_INTERNAL_EDGE_THICK_SWEEP_H
