@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace cellwalk::python {
 namespace {
 
@@ -56,6 +58,31 @@ std::pair<const double*, std::size_t> rows_of(const py::handle& argument, const 
       "{0} must be a C-contiguous float64 array of shape (N, {1}), and is {2}; numpy.ascontiguousarray({0}, "
       "dtype=numpy.float64) makes one of numbers",
       name, columns, description(argument)));
+}
+
+Radii::Radii(const py::handle& argument, std::size_t rows, const char* name_of_rows) {
+  const auto check = [](double radius, const std::string& name) {
+    if (!(radius >= 0 && std::isfinite(radius)))
+      throw py::value_error(fmt::format("{} must be a finite number of at least 0, and is {}", name, radius));
+  };
+  if (py::isinstance<py::float_>(argument) || py::isinstance<py::int_>(argument)) {
+    of_all_ = py::cast<double>(argument);
+    check(of_all_, "radius");
+    return;
+  }
+  constexpr int needed = int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_};
+  const auto is_usable = [](const py::array& array) {
+    return array.dtype().equal(py::dtype::of<double>()) && array.ndim() == 1 &&
+           (array.flags() & needed) == needed;
+  };
+  if (!py::isinstance<py::array>(argument) || !is_usable(py::reinterpret_borrow<py::array>(argument)))
+    throw py::type_error(
+        fmt::format("radius must be a number or a C-contiguous float64 array of shape (N,), and is {}",
+                    description(argument)));
+  const auto array = py::reinterpret_borrow<py::array>(argument);
+  each_ = {static_cast<const double*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+  need_equal(each_.size(), "radius", rows, name_of_rows);
+  for (std::size_t i = 0; i < rows; ++i) check(each_[i], fmt::format("radius[{}]", i));
 }
 
 Index_table indices_of(const py::handle& argument, const char* name, std::size_t bound) {

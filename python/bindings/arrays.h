@@ -46,6 +46,22 @@ Index_table indices_of(const py::handle& argument, const char* name, std::size_t
 /// Indices of an integer array of one dimension, copied, likewise.
 std::vector<std::uint32_t> numbers_of(const py::handle& argument, const char* name, std::size_t bound);
 
+/// The radius of all rows, or that of each.
+class Radii {
+ public:
+  /// \param argument a number, or an array of as many as there are rows, which outlives the radii
+  /// \param name_of_rows for messages
+  /// \throw TypeError for something else; ValueError for another number of them, or one that is not a finite
+  ///        number of at least 0
+  Radii(const py::handle& argument, std::size_t rows, const char* name_of_rows);
+  double operator[](std::size_t row) const { return each_.empty() ? of_all_ : each_[row]; }
+  bool are_all_0() const { return each_.empty() && of_all_ == 0; }
+
+ private:
+  double of_all_ = 0;
+  std::span<const double> each_;
+};
+
 /// \throw ValueError unless both arrays have as many rows
 void need_equal(std::size_t rows, const char* name, std::size_t expected, const char* expected_name);
 

@@ -73,7 +73,8 @@ Locations locate(const Shared_world& self, const py::object& points, int threads
 }
 
 Motions walk_points(const Shared_world& self, const py::object& starts, const py::object& targets,
-                    const std::string& touch, const std::string& kernel, int threads) {
+                    const std::string& touch, const std::string& kernel, const py::object& radius,
+                    int threads) {
   check_threads(threads);
   const Touch stop_or_pass = to_touch(touch);
   Walk_method method;
@@ -91,12 +92,17 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
       [&]<int D>(const World<D>&) {
         const auto from = points_of<D>(starts, "starts"), to = points_of<D>(targets, "targets");
         need_equal(to.size(), "targets", from.size(), "starts");
+        const Radii radii(radius, from.size(), "starts");
+        if (!radii.are_all_0() && method.kernel != Kernel_choice::exact)
+          throw Error(Error_code::usage, "a radius needs kernel=\"exact\": distances are exact only");
         return run_questions<D>(self.world, from.size(), threads,
                                 [&](const Snapshot<D>& snapshot, const Locator<D>& locator, std::size_t row,
                                     Edge_counts& counts) -> Answer<D> {
                                   if (!is_usable(from[row]) || !is_usable(to[row])) return {};
-                                  return answer_move(snapshot, locator, from[row], to[row], stop_or_pass,
-                                                     method, counts);
+                                  return radii[row] == 0 ? answer_move(snapshot, locator, from[row], to[row],
+                                                                       stop_or_pass, method, counts)
+                                                         : answer_move(snapshot, locator, from[row], to[row],
+                                                                       stop_or_pass, counts, radii[row]);
                                 });
       },
       *self.world);
@@ -105,7 +111,7 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
 Motions sweep_edges(const Shared_world& self, const py::object& p, const py::object& targets,
                     const py::object& q, const std::string& sweep, const std::string& touch,
                     const std::string& search, const std::string& search_cells, double tolerance,
-                    const std::string& search_limit, int threads) {
+                    const std::string& search_limit, const py::object& radius, int threads) {
   check_threads(threads);
   Search_options searched;
   const Sweep_options options =
@@ -116,14 +122,16 @@ Motions sweep_edges(const Shared_world& self, const py::object& p, const py::obj
                    other = points_of<D>(q, "q");
         need_equal(to.size(), "targets", from.size(), "p");
         need_equal(other.size(), "q", from.size(), "p");
+        const Radii radii(radius, from.size(), "p");
         return run_questions<D>(self.world, from.size(), threads,
                                 [&](const Snapshot<D>& snapshot, const Locator<D>& locator, std::size_t row,
                                     Edge_counts& counts) -> Answer<D> {
                                   if (!is_usable(from[row]) || !is_usable(to[row]) || !is_usable(other[row]))
                                     return {};
-                                  return answer_sweep(snapshot, locator,
-                                                      Edge_motion<D>{from[row], to[row], other[row]}, options,
-                                                      counts);
+                                  return answer_sweep(
+                                      snapshot, locator,
+                                      Edge_motion<D>{from[row], to[row], other[row], radii[row]}, options,
+                                      counts);
                                 });
       },
       *self.world);
@@ -239,18 +247,20 @@ void bind_environment(py::module_& module) {
           py::arg("points"), py::kw_only(), py::arg("threads") = 0,
           "Finds the cells that contain points, exactly. Rows that are not finite are outside.")
       .def("walk", walk_points, py::arg("starts"), py::arg("targets"), py::kw_only(),
-           py::arg("touch") = "pass", py::arg("kernel") = "exact", py::arg("threads") = 0,
+           py::arg("touch") = "pass", py::arg("kernel") = "exact", py::arg("radius") = 0.0,
+           py::arg("threads") = 0,
            "Answers motions of points from starts[i] to targets[i]: locates the starts, then walks. For "
            "points "
            "that move repeatedly, Particles are faster, since they remember their cells.\n\n"
            "touch: \"pass\": walls may be touched; \"stop\": touches are contacts.\n"
            "kernel: \"exact\", \"lazy\"; \"double\" and \"float\" may miss walls and are for experiments.\n"
+           "radius: a number, or a float64 array (N,): how far each point keeps from every wall, exactly.\n"
            "threads: 0: all cores. The answers do not depend on it.")
       .def(
           "sweep", sweep_edges, py::arg("p"), py::arg("targets"), py::arg("q"), py::kw_only(),
           py::arg("sweep") = "triangle", py::arg("touch") = "pass", py::arg("search") = "exact",
           py::arg("search_cells") = "flooded", py::arg("tolerance") = 0x1p-20,
-          py::arg("search_limit") = "below", py::arg("threads") = 0,
+          py::arg("search_limit") = "below", py::arg("radius") = 0.0, py::arg("threads") = 0,
           "Answers motions of edges: the end p[i] moves to targets[i] while the end q[i] stands still.\n\n"
           "sweep: \"triangle\": the whole swept triangle; \"three_segments\": the path of p, then the edge, "
           "as "
@@ -260,6 +270,7 @@ void bind_environment(py::module_& module) {
           "\"dichotomic_segment\" (the paper's, which may be late) or \"exhaustive\".\n"
           "search_cells, search_limit: of the exhaustive search: obstacles in the cells that are \"flooded\" "
           "or \"traversed\", \"below\" the edge at its end, or \"none\" for no limit, with the same result.\n"
+          "radius: a number, or a float64 array (N,): how far each edge keeps from every wall, exactly.\n"
           "threads: 0: all cores. The answers do not depend on it.")
       .def("__repr__", [](const Shared_world& self) {
         return std::visit(

@@ -59,7 +59,8 @@ void bind_motions(py::module_& module) {
           "contacts", &Motions::contacts,
           "A structured array with a row for each contact, in the order of `row`: row, time, point, normal "
           "(unit, on the free side), kind (Feature of the environment), body (Feature of the moving object), "
-          "cell and facet (the wall, as the number of a facet of the cell).")
+          "cell and facet (the wall, as the number of a facet of the cell). A start that is closer than its "
+          "radius has a row with the nearest point of the walls, the time NaN and the normal 0.")
       .def_readonly("counts", &Motions::counts, "The machine-independent counts of the batch.")
       .def_property_readonly(
           "cell", [](Motions& motions) { return motions.cell_numbers(); },

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -81,7 +82,7 @@ struct Motion_rows {
   void meet(std::size_t row, const Contact<D>& contact, std::uint32_t visited) const {
     set(row, Motion_status::contact, contact.cell, visited);
   }
-  /// Outside, invalid or lost.
+  /// Outside, invalid, lost or close.
   void fail(std::size_t row, Motion_status why) const { set(row, why, Cell::none, 0); }
 
  private:
@@ -159,7 +160,12 @@ Motions run_questions(const std::shared_ptr<const Any_world>& world, std::size_t
                 const Motion_rows<D>& out, Chunk<D, Edge_counts>& chunk, std::size_t begin, std::size_t end) {
               for (std::size_t row = begin; row < end; ++row) {
                 const Answer<D> answer = answer_row(snapshot, locator, row, chunk.counts);
-                if (answer.contact) {
+                if (answer.status == Motion_status::close) {
+                  out.fail(row, answer.status);
+                  Contact<D> nearest = *answer.contact;
+                  nearest.time = std::numeric_limits<double>::quiet_NaN();
+                  chunk.add(snapshot, row, nearest);
+                } else if (answer.contact) {
                   out.meet(row, *answer.contact, answer.cells);
                   chunk.add(snapshot, row, *answer.contact);
                 } else if (answer.status == Motion_status::free) {

@@ -15,6 +15,7 @@ _Indices = numpy.typing.NDArray[numpy.integer[Any]]
 _Facets = Union[numpy.typing.NDArray[Any], Sequence[Sequence[int]], Sequence[int], numpy.void]
 _Cells = Union[numpy.typing.NDArray[Any], Sequence[int], int, numpy.void]
 _Touch = Literal["pass", "stop"]
+_Radius = Union[float, numpy.typing.NDArray[numpy.float64]]
 _Sweep = Literal["three_segments", "triangle", "faces"]
 _Search = Literal["exact", "dichotomic", "dichotomic_segment", "exhaustive"]
 _Duplicates = Literal["refuse", "merge", "keep"]
@@ -246,6 +247,7 @@ class Environment:
         *,
         touch: _Touch = "pass",
         kernel: Literal["exact", "lazy", "double", "float"] = "exact",
+        radius: _Radius = 0.0,
         threads: int = 0,
     ) -> Motions: ...
     def sweep(
@@ -260,6 +262,7 @@ class Environment:
         search_cells: Literal["flooded", "traversed"] = "flooded",
         tolerance: float = ...,
         search_limit: Literal["below", "none"] = "below",
+        radius: _Radius = 0.0,
         threads: int = 0,
     ) -> Motions: ...
     def reshape(

@@ -12,6 +12,7 @@ class Status(enum.IntEnum):
     OUTSIDE = 2
     INVALID = 3
     LOST = 4
+    CLOSE = 5
 
 
 class Place(enum.IntEnum):

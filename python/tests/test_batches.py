@@ -47,6 +47,36 @@ class InABox(unittest.TestCase):
     def test_walk(self):
         self.check(self.environment.walk(self.starts, self.targets))
 
+    def test_walk_with_a_radius(self):
+        """A point of radius r is one without in a box that is smaller by r on each side."""
+        for radius in (0.5, numpy.where(numpy.arange(len(self.starts)) % 2 == 0, 0.25, 1.5)):
+            motions = self.environment.walk(self.starts, self.targets, radius=radius)
+            r = numpy.broadcast_to(radius, len(self.starts))[:, None]
+            close = ((self.starts < r) | (self.starts > self.size - r)).any(axis=1)
+            free = ~close & ((self.targets >= r) & (self.targets <= self.size - r)).all(axis=1)
+            blocked = ~close & ~free
+            self.assertGreater(min(numpy.count_nonzero(some) for some in (close, free, blocked)), 1000)
+            expected = numpy.select([close, free], [Status.CLOSE, Status.FREE], Status.CONTACT)
+            self.assertTrue((motions.status == expected).all())
+            self.assertTrue(numpy.isnan(motions.time[close]).all())
+            self.assertTrue((motions.time[free] == 1).all())
+            times = box_time(self.starts - r, self.targets - r, self.size - 2 * r)
+            numpy.testing.assert_allclose(motions.time[blocked], times[blocked], rtol=1e-14, atol=1e-300)
+            stops = motions.contacts[~numpy.isnan(motions.contacts["time"])]
+            at = self.starts[stops["row"]] + stops["time"][:, None] * (self.targets - self.starts)[stops["row"]]
+            numpy.testing.assert_allclose(stops["point"] + r[stops["row"]] * stops["normal"], at, atol=1e-13)
+
+    def test_a_radius_is_checked(self):
+        some = self.starts[:3]
+        for radius, error in ((-1, ValueError), (numpy.nan, ValueError), (numpy.array([0.0, 1.0]), ValueError),
+                              (numpy.array([0, 1, 2]), TypeError), ("1", TypeError), (numpy.array([0.0, -1, 0]), ValueError)):
+            with self.assertRaises(error):
+                self.environment.walk(some, some, radius=radius)
+        with self.assertRaisesRegex(cellwalk.UsageError, "kernel"):
+            self.environment.walk(some, some, radius=1, kernel="double")
+        with self.assertRaisesRegex(cellwalk.UsageError, "touch stop"):
+            self.environment.walk(some, some, radius=1, touch="stop")
+
     def test_particles(self):
         particles = cellwalk.Particles(self.environment, self.starts)
         motions = particles.move(self.targets)

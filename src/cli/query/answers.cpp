@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "cli/common/contact_kind_names.h"
 
@@ -24,16 +25,18 @@ std::array<double, 3> fields(const std::array<double, D>& p) {
 
 }  // namespace
 
-std::vector<std::string> answer_columns(bool of_edges) {
+std::vector<std::string> answer_columns(bool of_edges, bool has_radii) {
   std::vector<std::string> columns{"row",  "status", "time", "x",  "y",     "z",
                                    "kind", "nx",     "ny",   "nz", "cells", "cell"};
   if (of_edges) columns.insert(columns.begin() + 7, "body");
+  if (has_radii) columns.emplace_back("distance");
   return columns;
 }
 
 template <int D, std::size_t N>
 void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& snapshot,
-                   std::span<const Query_row<D, N>> rows, const std::vector<Answer<D>>& answers) {
+                   std::span<const Query_row<D, N>> rows, const std::vector<Answer<D>>& answers,
+                   bool has_radii) {
   constexpr bool has_body = N == 3;
   for (std::size_t row = 0; row < answers.size(); ++row) {
     const Answer<D>& answer = answers[row];
@@ -44,32 +47,45 @@ void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& 
       time = 1;
       end = fields(rows[row].points[1]);
     } else if (const auto& contact = answer.contact) {
-      time = contact->time;
       end = fields(contact->point);
-      normal = fields(contact->normal);
+      if (answer.status == Motion_status::contact) {
+        time = contact->time;
+        normal = fields(contact->normal);
+      }
       kind = contact_kind_names[static_cast<std::size_t>(contact->kind)];
       body = feature_names[static_cast<std::size_t>(contact->body)];
     }
-    const auto write = [&](const auto&... body_field) {
-      table.row(first + row, motion_status_names[static_cast<std::size_t>(answer.status)], time, end[0],
-                end[1], end[2], kind, body_field..., normal[0], normal[1], normal[2], answer.cells,
-                answer.cell == Cell::none ? std::string{} : std::to_string(snapshot.index(answer.cell)));
+    const std::string cell =
+        answer.cell == Cell::none ? std::string{} : std::to_string(snapshot.index(answer.cell));
+    const auto write = [&](const auto& body_field, const auto& distance_field) {
+      std::apply(
+          [&](const auto&... values) { table.row(values...); },
+          std::tuple_cat(std::tuple(first + row, motion_status_names[static_cast<std::size_t>(answer.status)],
+                                    time, end[0], end[1], end[2], kind),
+                         body_field, std::tuple(normal[0], normal[1], normal[2], answer.cells, cell),
+                         distance_field));
     };
-    if constexpr (has_body)
-      write(body);
+    const auto write_with = [&](const auto& distance_field) {
+      if constexpr (has_body)
+        write(std::tuple(body), distance_field);
+      else
+        write(std::tuple<>(), distance_field);
+    };
+    if (has_radii)
+      write_with(std::tuple(answer.status == Motion_status::close ? answer.contact->distance : absent));
     else
-      write();
+      write_with(std::tuple<>());
   }
 }
 
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<2>&,
-                            std::span<const Query_row<2, 2>>, const std::vector<Answer<2>>&);
+                            std::span<const Query_row<2, 2>>, const std::vector<Answer<2>>&, bool);
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<3>&,
-                            std::span<const Query_row<3, 2>>, const std::vector<Answer<3>>&);
+                            std::span<const Query_row<3, 2>>, const std::vector<Answer<3>>&, bool);
 
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<2>&,
-                            std::span<const Query_row<2, 3>>, const std::vector<Answer<2>>&);
+                            std::span<const Query_row<2, 3>>, const std::vector<Answer<2>>&, bool);
 template void write_answers(io::Csv_writer&, std::size_t, const Snapshot<3>&,
-                            std::span<const Query_row<3, 3>>, const std::vector<Answer<3>>&);
+                            std::span<const Query_row<3, 3>>, const std::vector<Answer<3>>&, bool);
 
 }  // namespace cellwalk::cli

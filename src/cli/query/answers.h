@@ -45,17 +45,19 @@ void answer_rows(const std::vector<Query_row<D, N>>& rows, const char* label, Co
 }
 
 /// The columns of the table of answers: row,status,time,x,y,z,kind,nx,ny,nz,cells,cell; for edges (rows of
-/// three points) with `body` after `kind`.
-std::vector<std::string> answer_columns(bool of_edges);
+/// three points) with `body` after `kind`; with radii, `distance` at the end.
+std::vector<std::string> answer_columns(bool of_edges, bool has_radii);
 
 /// Writes rows of the table of answers. Rows and cells count from 0; cells are those of the file; fields that
 /// do not apply are empty. A free motion ends at the second point of its row.
 /// \param first the number of the first row in the whole table
+/// \param has_radii some row of the whole table has a radius
 /// \pre as many rows as answers
 /// \throw Error(other) if it cannot be written
 template <int D, std::size_t N>
 void write_answers(io::Csv_writer& table, std::size_t first, const Snapshot<D>& snapshot,
-                   std::span<const Query_row<D, N>> rows, const std::vector<Answer<D>>& answers);
+                   std::span<const Query_row<D, N>> rows, const std::vector<Answer<D>>& answers,
+                   bool has_radii);
 
 }  // namespace cellwalk::cli
 

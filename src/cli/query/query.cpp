@@ -175,6 +175,13 @@ void add_query(CLI::App& app, Action& chosen) {
              "its end q stands still, columns px,py,pz,tx,ty,tz,qx,qy,qz. Without z in 2D");
   add_choice(*command, "--touch", options->sweep.touch, {{"pass", Touch::pass}, {"stop", Touch::stop}},
              "Whether a motion may touch a wall that it does not cross, or stops there");
+  command
+      ->add_option(
+          "--radius", options->radius,
+          "How far what moves keeps from every wall; a column `radius` of the table gives its own to "
+          "each row. 0: it may touch walls")
+      ->check(number_from(0, "of at least 0"))
+      ->type_name("R");
   command->add_option("--threads", options->threads, "Threads; 0: all. The answers do not depend on it")
       ->check(whole_number(0, 1024))
       ->type_name("N");
@@ -195,6 +202,7 @@ void add_query(CLI::App& app, Action& chosen) {
   add_sweep_options(*command, *options);
   add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
                           "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv",
+                          "cellwalk query vessel.ovm edges.csv --mode sweep --radius 0.05 -o thick.csv",
                           "cellwalk query rooms.ovm moves.csv -o answers.csv --picture first.png --row 0"});
   command->callback([options, command, &chosen] {
     chosen = [options, command](Ranks& ranks) { query(*options, *command, ranks); };

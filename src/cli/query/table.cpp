@@ -72,11 +72,12 @@ struct Answered {
 };
 
 /// Completes all files and prints the number of answers of each status.
-void report(const Query_options& options, Query_files& files, const Answered& answered) {
+void report(const Query_options& options, Query_files& files, const Answered& answered, bool has_radii) {
   nlohmann::ordered_json by_status = nlohmann::ordered_json::object();
   std::string line;
   std::uint64_t motions = 0;
   for (std::size_t s = 0; s < answered.tally.size(); ++s) {
+    if (Motion_status{static_cast<std::uint8_t>(s)} == Motion_status::close && !has_radii) continue;
     motions += answered.tally[s];
     by_status[motion_status_names[s]] = answered.tally[s];
     if (answered.tally[s] != 0)
@@ -152,31 +153,44 @@ void record_row(const Query_options& options, Query_files& files, const Environm
                  fmt::format("row {} of a query: {}", *options.row, status));
 }
 
-/// Answers the rows of this rank by answer(points, counts), and hands the answers to the first, which writes
+/// Options that are of motions without a radius.
+/// \throw Error(usage) for one of them
+void refuse_with_radii(const Query_options& options) {
+  const auto refuse = [](const char* option, const char* advice) {
+    throw Error(Error_code::usage, fmt::format("{} is of motions without a radius: {}", option, advice));
+  };
+  if (options.sweep.touch == Touch::stop) refuse("--touch stop", "with one, no wall is touched");
+  if (options.method.kernel != Kernel_choice::exact) refuse("--kernel", "distances are exact only");
+  if (options.sweep.sweep == Sweep::three_segments) refuse("--sweep three_segments", "take triangle");
+  if (options.contact) refuse("--contact", "leave it out, the exact time is found");
+  if (options.row) refuse("--row", "--record and --picture show the walk of a point");
+}
+
+/// Answers the rows of this rank by answer(row, counts), and hands the answers to the first, which writes
 /// those of all.
 /// \param files on the first rank
-template <int D, std::size_t N, class Answer_points>
+/// \param has_radii some row of the whole table has a radius
+template <int D, std::size_t N, class Answer_row>
 void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks& ranks,
                          const Environment<D>& environment, const std::vector<Query_row<D, N>>& rows,
-                         const char* label, const Answer_points& answer, const Locator<D>& locator) {
+                         bool has_radii, const char* label, const Answer_row& answer,
+                         const Locator<D>& locator) {
   const Snapshot<D>& snapshot = environment.snapshot();
   const std::size_t first = first_row(ranks, rows.size());
   const auto wanted = wanted_row(options, ranks, first, rows);
-  const std::vector<std::string> columns = answer_columns(N == 3);
+  const std::vector<std::string> columns = answer_columns(N == 3, has_radii);
   std::string text;                  // of a later rank
   constexpr std::size_t about = 96;  // bytes of a row
   if (files == nullptr) text.reserve(about * rows.size());
   io::Csv_writer table =
       files != nullptr ? io::Csv_writer(*files->answers, columns) : io::Csv_writer(text, columns.size());
   Answered answered;
-  answer_rows(
-      rows, label, answered.counts,
-      [&](const Query_row<D, N>& row, Edge_counts& local) { return answer(row.points, local); },
-      [&](std::size_t begin, const std::vector<Answer<D>>& answers) {
-        const std::span<const Query_row<D, N>> of_batch(rows.data() + begin, answers.size());
-        answered.add(answers, of_batch);
-        write_answers(table, first + begin, snapshot, of_batch, answers);
-      });
+  answer_rows(rows, label, answered.counts, answer,
+              [&](std::size_t begin, const std::vector<Answer<D>>& answers) {
+                const std::span<const Query_row<D, N>> of_batch(rows.data() + begin, answers.size());
+                answered.add(answers, of_batch);
+                write_answers(table, first + begin, snapshot, of_batch, answers, has_radii);
+              });
   if (files == nullptr) {
     ranks.gather(to_message(answered));
     ranks.gather(std::move(text));
@@ -184,7 +198,7 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
   }
   if (wanted) {
     Edge_counts not_counted;
-    const Answer<D> once_more = answer(*wanted, not_counted);
+    const Answer<D> once_more = answer(Query_row<D, N>{*wanted, 0, 0, {}}, not_counted);
     if constexpr (N == 2) record_row(options, *files, environment, *wanted, once_more);
     draw_row(options, *files, snapshot, locator, *wanted, once_more);
   }
@@ -193,7 +207,7 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
     answered.add(from_message<Answered>(of_rank));
   });
   ranks.gather({}, [&](const std::string& of_rank) { files->answers->write(of_rank); });
-  report(options, *files, answered);
+  report(options, *files, answered, has_radii);
 }
 
 }  // namespace
@@ -202,25 +216,30 @@ template <int D>
 void answer_table(const Query_options& options, Query_files* files, Ranks& ranks,
                   const Environment<D>& environment) {
   const Snapshot<D>& snapshot = environment.snapshot();
-  const io::Table_part part{ranks.rank(), ranks.size()};
+  const io::Csv_table table = io::Csv_table::read(options.queries, {ranks.rank(), ranks.size()});
+  const bool has_radii = options.radius != 0 || table.find_column("radius");
+  if (has_radii) refuse_with_radii(options);
   if (options.mode == Query_mode::move) {
-    const auto moves = io::read_moves<D>(options.queries, part);
+    const auto moves = io::query_rows<D, 2>(table, {"a", "b"}, options.radius);
     const Locator<D> locator(snapshot);
     answer_rows_of_rank(
-        options, files, ranks, environment, moves, "walking",
-        [&](const std::array<Point<D>, 2>& points, Edge_counts& local) {
-          return answer_move(snapshot, locator, points[0], points[1], options.sweep.touch, options.method,
-                             local);
+        options, files, ranks, environment, moves, has_radii, "walking",
+        [&](const Query_row<D, 2>& row, Edge_counts& local) {
+          const auto& [from, to] = row.points;
+          return row.radius == 0
+                     ? answer_move(snapshot, locator, from, to, options.sweep.touch, options.method, local)
+                     : answer_move(snapshot, locator, from, to, options.sweep.touch, local, row.radius);
         },
         locator);
   } else {
-    const auto sweeps = io::read_sweeps<D>(options.queries, part);
+    const auto sweeps = io::query_rows<D, 3>(table, {"p", "t", "q"}, options.radius);
     const Locator<D> locator(snapshot);
     answer_rows_of_rank(
-        options, files, ranks, environment, sweeps, "sweeping",
-        [&](const std::array<Point<D>, 3>& points, Edge_counts& local) {
-          const auto& [p, target, q] = points;
-          return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q}, options.sweep, local);
+        options, files, ranks, environment, sweeps, has_radii, "sweeping",
+        [&](const Query_row<D, 3>& row, Edge_counts& local) {
+          const auto& [p, target, q] = row.points;
+          return answer_sweep(snapshot, locator, Edge_motion<D>{p, target, q, row.radius}, options.sweep,
+                              local);
         },
         locator);
   }

@@ -25,6 +25,7 @@ struct Query_options {
   std::string picture;             // if set, the picture of the row
   std::optional<std::size_t> row;  // of the repro file or the picture
   Query_mode mode = Query_mode::move;
+  double radius = 0;  // of rows without one of their own
   Walk_method method;
   Sweep_options sweep;                    // its `touch` also applies to moves
   std::optional<Contact_search> contact;  // default: exact

@@ -10,7 +10,7 @@ namespace cellwalk::io {
 
 template <int D, std::size_t N>
 std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
-                                        const std::array<std::string_view, N>& prefixes) {
+                                        const std::array<std::string_view, N>& prefixes, double radius) {
   constexpr std::string_view axes = "xyz";
   std::array<std::array<std::size_t, D>, N> columns;
   for (std::size_t i = 0; i < N; ++i) {
@@ -20,6 +20,7 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
     if (D == 2 && table.find_column(z))
       fail(table.name(), fmt::format("has a column '{}', and the environment is 2D: leave z out", z));
   }
+  const auto radii = N > 1 ? table.find_column("radius") : std::nullopt;
   std::vector<Query_row<D, N>> rows(table.row_count());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     rows[r].line = table.line(r);
@@ -30,15 +31,28 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
         rows[r].points[i][k] = number.value;
         rows[r].error = number.reason;
       }
+    rows[r].radius = radius;
+    if (!radii || !rows[r].error.empty()) continue;
+    const Parsed_number number = table.number(r, *radii);
+    rows[r].radius = number.value;
+    rows[r].error = number.reason;
+    if (number.reason.empty() && number.value < 0)
+      rows[r].error = fmt::format("radius: takes a finite number of at least 0, not {}", number.value);
   }
   return rows;
 }
 
-template std::vector<Query_row<2, 1>> query_rows(const Csv_table&, const std::array<std::string_view, 1>&);
-template std::vector<Query_row<3, 1>> query_rows(const Csv_table&, const std::array<std::string_view, 1>&);
-template std::vector<Query_row<2, 2>> query_rows(const Csv_table&, const std::array<std::string_view, 2>&);
-template std::vector<Query_row<3, 2>> query_rows(const Csv_table&, const std::array<std::string_view, 2>&);
-template std::vector<Query_row<2, 3>> query_rows(const Csv_table&, const std::array<std::string_view, 3>&);
-template std::vector<Query_row<3, 3>> query_rows(const Csv_table&, const std::array<std::string_view, 3>&);
+template std::vector<Query_row<2, 1>> query_rows(const Csv_table&, const std::array<std::string_view, 1>&,
+                                                 double);
+template std::vector<Query_row<3, 1>> query_rows(const Csv_table&, const std::array<std::string_view, 1>&,
+                                                 double);
+template std::vector<Query_row<2, 2>> query_rows(const Csv_table&, const std::array<std::string_view, 2>&,
+                                                 double);
+template std::vector<Query_row<3, 2>> query_rows(const Csv_table&, const std::array<std::string_view, 2>&,
+                                                 double);
+template std::vector<Query_row<2, 3>> query_rows(const Csv_table&, const std::array<std::string_view, 3>&,
+                                                 double);
+template std::vector<Query_row<3, 3>> query_rows(const Csv_table&, const std::array<std::string_view, 3>&,
+                                                 double);
 
 }  // namespace cellwalk::io

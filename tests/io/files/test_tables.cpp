@@ -144,30 +144,55 @@ TEST(QueryFiles, RowsCarryTheirLineAndWhatIsWrongWithThem) {
   EXPECT_EQ(rows[2].line, 5u);
 }
 
+template <int D>
+std::vector<Query_row<D, 2>> moves_of(const std::filesystem::path& path) {
+  return query_rows<D, 2>(Csv_table::read(path), {"a", "b"});
+}
+template <int D>
+std::vector<Query_row<D, 3>> sweeps_of(const std::filesystem::path& path) {
+  return query_rows<D, 3>(Csv_table::read(path), {"p", "t", "q"});
+}
+
+TEST(QueryFiles, RadiiAreOfTheRowOrOfAll) {
+  const Folder folder;
+  const auto own =
+      folder.write("own.csv", "ax,ay,bx,by,radius\n1,2,3,4,0.5\n1,2,3,4,-1\n1,2,3,4,inf\n1,2,3,4,-0\n");
+  const auto rows = query_rows<2, 2>(Csv_table::read(own), {"a", "b"}, 9);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].radius, 0.5);
+  EXPECT_EQ(rows[1].error, "radius: takes a finite number of at least 0, not -1");
+  EXPECT_EQ(rows[2].error, "radius: 'inf' is not finite");
+  EXPECT_EQ(rows[3].radius, 0);
+  EXPECT_EQ(rows[3].error, "");
+  const auto none = folder.write("none.csv", "ax,ay,bx,by\n1,2,3,4\n");
+  EXPECT_EQ((query_rows<2, 2>(Csv_table::read(none), {"a", "b"}, 9)[0].radius), 9);
+  EXPECT_EQ(moves_of<2>(none)[0].radius, 0);
+}
+
 TEST(QueryFiles, TheDimensionMustFit) {
   const Folder folder;
   const auto plane = folder.write("p.csv", "ax,ay,bx,by\n1,2,3,4\n"),
              space = folder.write("s.csv", "ax,ay,az,bx,by,bz\n");
-  EXPECT_EQ(read_moves<2>(plane)[0].points[1], (Point<2>{3, 4}));
-  EXPECT_EQ(refusal([&] { read_moves<3>(plane); }),
+  EXPECT_EQ(moves_of<2>(plane)[0].points[1], (Point<2>{3, 4}));
+  EXPECT_EQ(refusal([&] { moves_of<3>(plane); }),
             plane.string() + ": has no column 'az': its header names ax,ay,bx,by");
-  EXPECT_EQ(refusal([&] { read_moves<2>(space); }),
+  EXPECT_EQ(refusal([&] { moves_of<2>(space); }),
             space.string() + ": has a column 'az', and the environment is 2D: leave z out");
-  EXPECT_TRUE(read_moves<3>(space).empty());
+  EXPECT_TRUE(moves_of<3>(space).empty());
 }
 
 TEST(QueryFiles, SweepsHaveAnEndThatMovesAndOneThatStands) {
   const Folder folder;
   const auto plane = folder.write("p.csv", "qx,qy,px,py,tx,ty\n5,6,1,2,3,4\n");
-  const auto rows = read_sweeps<2>(plane);
+  const auto rows = sweeps_of<2>(plane);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].points, (std::array<Point<2>, 3>{{{1, 2}, {3, 4}, {5, 6}}}));
-  EXPECT_EQ(refusal([&] { read_sweeps<3>(plane); }),
+  EXPECT_EQ(refusal([&] { sweeps_of<3>(plane); }),
             plane.string() + ": has no column 'pz': its header names qx,qy,px,py,tx,ty");
-  EXPECT_EQ(refusal([&] { read_moves<2>(plane); }),
+  EXPECT_EQ(refusal([&] { moves_of<2>(plane); }),
             plane.string() + ": has no column 'ax': its header names qx,qy,px,py,tx,ty");
   const auto mixed = folder.write("m.csv", "px,py,tx,ty,qx,qy,qz\n1,2,3,4,5,6,7\n");
-  EXPECT_EQ(refusal([&] { read_sweeps<2>(mixed); }),
+  EXPECT_EQ(refusal([&] { sweeps_of<2>(mixed); }),
             mixed.string() + ": has a column 'qz', and the environment is 2D: leave z out");
 }
 
