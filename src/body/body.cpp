@@ -29,9 +29,12 @@ constexpr std::size_t most_reported_edges = 64;
   throw Error(Error_code::usage, "a vertex of this body has more than 64 edges: use Step_rule::reject");
 }
 
-void check_rule(const Body_options& options, const detail::Body_topology& topology) {
-  if (options.rule == Step_rule::reject_at_target && topology.max_degree() > most_reported_edges)
+template <int D>
+void check_rule(const Body_options& options, const detail::Body_state<D>& body) {
+  if (options.rule == Step_rule::reject_at_target && body.topology.max_degree() > most_reported_edges)
     refuse_rule();
+  if (!body.thick.are_none()) [[unlikely]]
+    detail::check_thick_step(options);
 }
 
 [[noreturn, gnu::noinline]] void refuse_number(const char* what, std::size_t number, std::size_t count) {
@@ -86,6 +89,7 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
                                                   const Body_soup<D>& soup) {
   auto state = std::make_unique<detail::Body_state<D>>(
       snapshot, locator, soup, detail::Registered_before<D>{}, detail::Body_certificates{});
+  detail::check_distances(*state, state->thick, Error_code::outside);
   if constexpr (D == 3) {
     Face_counts uncounted;
     const auto pierced = detail::register_faces(*state, uncounted);
@@ -150,6 +154,23 @@ const Chain& Body<D>::chain(std::size_t edge) const {
 }
 
 template <int D>
+double Body<D>::radius(std::size_t edge) const {
+  if (edge >= state_->chains.size()) refuse_number("edge", edge, state_->chains.size());
+  return state_->thick.radius(static_cast<std::uint32_t>(edge));
+}
+
+template <int D>
+void Body<D>::set_radii(std::span<const double> radii) {
+  state_->check_epoch();
+  detail::Thick_edges<D> thick(radii, state_->topology, vertex_count());
+  Body_counts uncounted;
+  leave_region(uncounted);
+  detail::check_distances(*state_, thick, Error_code::outside);
+  state_->thick = std::move(thick);
+  state_->begin_regions(state_->certificates);
+}
+
+template <int D>
 Cell Body<D>::cell_of(std::uint32_t vertex) const {
   if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   Particle<D> particle = state_->particles[vertex];
@@ -171,7 +192,7 @@ template <int D>
 void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
                    Body_counts& counts) {
   detail::Body_state<D>& body = *state_;
-  check_rule(options, body.topology);
+  check_rule(options, body);
   body.check_epoch();
   // Pointers, since sizes would have to be divided by the size of a point.
   if (body.positions.data() + targets.size() != std::to_address(body.positions.end())) [[unlikely]]
@@ -199,6 +220,11 @@ std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point
   if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   detail::check_finite(target, "the target of a vertex");
   if (options.sweep.search) detail::check_search(*options.sweep.search);
+  if (!state_->thick.are_none()) {
+    Body_options of_sweep = options;
+    of_sweep.rule = Step_rule::reject;
+    detail::check_thick_step(of_sweep);
+  }
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }
@@ -240,6 +266,7 @@ void Body<D>::validate() const {
     throw Error(Error_code::other, fmt::format("edge {} of a body has no valid chain, from ({}) to ({})", e,
                                                fmt::join(positions[u], ", "), fmt::join(positions[v], ", ")));
   }
+  detail::check_distances(*state_, state_->thick, Error_code::other);
   if constexpr (D == 3) {
     if (!state_->are_faces_swept) return;
     Face_counts face_counts;

@@ -56,6 +56,11 @@ void Body_access<D>::leave_regions(Body_counts& counts) {
 }
 
 template <int D>
+bool Body_access<D>::has_radii() const {
+  return !state_->thick.are_none();
+}
+
+template <int D>
 bool Body_access<D>::keeps_faces() const {
   return state_->are_faces_swept && !state_->topology.faces().empty();
 }

@@ -8,7 +8,9 @@
 
 namespace cellwalk::detail {
 
-Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices) {
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices,
+                             bool has_radii) {
+  if (has_radii) chosen.body_region = chosen.star_regions = false;
   if (vertices < chosen.least_vertices_of_parts ||
       topology.edges().size() >= chosen.least_edges_a_vertex * vertices)
     return chosen;
@@ -22,20 +24,20 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
     : Body_state(of_snapshot, soup.points,
                  Body_topology(soup.points.size(), soup.edges,
                                D == 3 ? soup.faces : std::vector<std::array<std::uint32_t, 3>>()),
-                 of_body) {
+                 soup.radii, of_body) {
   Registered<D> registered = register_body(of_snapshot, locator, soup, before);
   particles = std::move(registered.particles);
   chains = std::move(registered.chains);
   pool.prepare(of_snapshot, particles);
   // Without regions the first step tests all edges.
-  const Body_certificates used = worthwhile(of_body, topology, positions.size());
+  const Body_certificates used = worthwhile(of_body, topology, positions.size(), !thick.are_none());
   if (!used.body_region && !used.star_regions)
     for (std::uint32_t e = 0; e < chains.size(); ++e) read_corners(e);
 }
 
 template <int D>
 Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> points, Body_topology joined,
-                          const Body_certificates& of_body)
+                          std::span<const double> radii, const Body_certificates& of_body)
     : snapshot(&of_snapshot),
       epoch(of_snapshot.epoch()),
       positions(std::move(points)),
@@ -45,9 +47,31 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> 
       corners_of_chains(chains.size()),
       corners_epoch(of_snapshot.geometry_epoch()),
       supporting_walls(topology.faces().size()),
-      region(positions.size(), topology.edges().size(), worthwhile(of_body, topology, positions.size())),
-      pool(positions.size(), worthwhile(of_body, topology, positions.size())),
+      thick(radii, topology, positions.size()),
+      region(positions.size(), topology.edges().size(),
+             worthwhile(of_body, topology, positions.size(), !thick.are_none())),
+      pool(positions.size(), worthwhile(of_body, topology, positions.size(), !thick.are_none())),
       certificates(of_body) {}
+
+template <int D>
+void Body_state<D>::begin_regions(const Body_certificates& chosen) {
+  give_region_up();
+  certificates = chosen;
+  const Body_certificates used = worthwhile(chosen, topology, positions.size(), !thick.are_none());
+  region = Region_cache<D>(positions.size(), chains.size(), used);
+  pool = Region_pool<D>(positions.size(), used);
+  pool.prepare(*snapshot, particles);
+}
+
+template <int D>
+Body_soup<D> Body_state<D>::soup() const {
+  Body_soup<D> result{positions, topology.edges(), topology.faces()};
+  if (thick.radius_of_vertices() > 0)
+    result.radii = {thick.radius_of_vertices()};
+  else
+    result.radii.assign(thick.radii().begin(), thick.radii().end());
+  return result;
+}
 
 template <int D>
 Chain Body_state<D>::seen_from(const Corner& corner) const {

@@ -20,6 +20,7 @@
 #include "body/region/region_pool.h"
 #include "body/registration/registration.h"
 #include "body/shape/body_topology.h"
+#include "body/thick/thick_edges.h"
 
 namespace cellwalk::detail {
 
@@ -68,8 +69,10 @@ struct Move_scratch {
   }
 };
 
-/// Those of the chosen certificates that are worth their cost for a body.
-Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices);
+/// Those of the chosen certificates that are worth their cost for a body. A region without walls says nothing
+/// about those nearer than a radius.
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices,
+                             bool has_radii);
 
 template <int D>
 struct Body_state {
@@ -79,7 +82,7 @@ struct Body_state {
              const Registered_before<D>& before, const Body_certificates& of_body);
   /// A body of a snapshot that is not registered anywhere yet.
   Body_state(const Snapshot<D>& snapshot, std::vector<Point<D>> points, Body_topology joined,
-             const Body_certificates& of_body);
+             std::span<const double> radii, const Body_certificates& of_body);
 
   /// \throw Error(usage) if the environment was edited since the body was registered
   void check_epoch() const {
@@ -120,6 +123,11 @@ struct Body_state {
   /// Gives the region up.
   /// \pre nothing is stale
   void give_region_up();
+  /// Gives it up, and looks for regions by these certificates from now on.
+  /// \pre nothing is stale
+  void begin_regions(const Body_certificates& chosen);
+  /// The body where it is.
+  Body_soup<D> soup() const;
 
   /// Moves a particle of a stale vertex to where the vertex is.
   void follow(std::uint32_t vertex, Particle<D>& particle, Walk_counts& walks) const;
@@ -149,6 +157,7 @@ struct Body_state {
   bool may_have_supporting_walls = false;          ///< some face has; else none
   bool are_faces_swept = true;
   bool is_apart = false;  ///< it is known that no vertex and no edge touches a wall
+  Thick_edges<D> thick;
   Region_cache<D> region;
   Region_pool<D> pool;
   Body_certificates certificates;

@@ -22,6 +22,8 @@ namespace {
 constexpr std::array<char, 8> magic{'C', 'W', 'B', 'O', 'D', 'Y', '\r', '\n'};
 /// To be raised whenever bodies get other parts, or these another meaning.
 constexpr std::uint32_t version = 3;
+/// That of bodies with a radius.
+constexpr std::uint32_t version_with_radii = 4;
 constexpr std::uint32_t byte_order = 0x01020304;
 
 /// The bytes before the state.
@@ -53,12 +55,13 @@ class Saved_body {
     auto& state = const_cast<Body_state<D>&>(Body_access<D>::state_of(body));  // only read
     state.check_epoch();
     out(identity(*state.snapshot), state.positions, state.topology.edges(), state.topology.faces());
+    if (!state.thick.are_none()) out(state.soup().radii);
     Body_certificates chosen = state.certificates;
     visit_certificates(out, chosen);
     visit_state(out, state);
   }
 
-  static Body<D> read(const Snapshot<D>& snapshot, Byte_reader& in) {
+  static Body<D> read(const Snapshot<D>& snapshot, Byte_reader& in, bool has_radii) {
     const auto known = in.next<std::array<std::uint64_t, 5>>();
     if (known != identity(snapshot))
       refuse(
@@ -67,11 +70,14 @@ class Saved_body {
     auto positions = in.next<std::vector<Point<D>>>();
     auto edges = in.next<std::vector<std::array<std::uint32_t, 2>>>();
     auto faces = in.next<std::vector<std::array<std::uint32_t, 3>>>();
+    std::vector<double> radii;
+    if (has_radii) in(radii);
     Body_certificates chosen;
     visit_certificates(in, chosen);
     const std::size_t vertices = positions.size();
-    auto state = std::make_unique<Body_state<D>>(
-        snapshot, std::move(positions), topology_of(vertices, std::move(edges), std::move(faces)), chosen);
+    auto state = std::make_unique<Body_state<D>>(snapshot, std::move(positions),
+                                                 topology_of(vertices, std::move(edges), std::move(faces)),
+                                                 radii, chosen);
     visit_state(in, *state);
     in.expect_end();
     check(*state);
@@ -150,6 +156,7 @@ std::vector<std::byte> save(const Body<D>& body) {
   detail::Saved_body<D>::write(body, state);
   detail::Head head;
   head.dimension = D;
+  if (!detail::Body_access<D>::state_of(body).thick.are_none()) head.version = detail::version_with_radii;
   head.checksum = detail::checksum(state.bytes());
   detail::Byte_writer out;
   out(head);
@@ -167,7 +174,8 @@ Body<D> restore_body(const Snapshot<D>& snapshot, std::span<const std::byte> byt
   if (head.magic != expected.magic) detail::refuse("these bytes are no saved body, or are cut short");
   if (head.byte_order != expected.byte_order)
     detail::refuse("this body was saved on a machine of another byte order: save it on this one");
-  if (head.version != expected.version)
+  const bool has_radii = head.version == detail::version_with_radii;
+  if (head.version != expected.version && !has_radii)
     detail::refuse("this body was saved in version " + std::to_string(head.version) +
                    " of the format, and this program reads version " + std::to_string(expected.version) +
                    ": save it again");
@@ -177,7 +185,7 @@ Body<D> restore_body(const Snapshot<D>& snapshot, std::span<const std::byte> byt
   if (head.checksum != detail::checksum(bytes.subspan(head_size)))
     detail::refuse("this saved body is damaged: its checksum differs");
   detail::Byte_reader state(bytes.subspan(head_size));
-  return detail::Saved_body<D>::read(snapshot, state);
+  return detail::Saved_body<D>::read(snapshot, state, has_radii);
 }
 
 template std::vector<std::byte> save(const Body<2>&);

@@ -71,6 +71,7 @@ Body_soup<D> transformed(Body_soup<D> body, const Body_placement<D>& placement) 
       refuse(fmt::format("vertex {} gets a coordinate that is not finite: choose a smaller scale or position",
                          v));
   }
+  for (double& radius : body.radii) radius *= placement.scale;
   return body;
 }
 

@@ -26,9 +26,10 @@ template <int D>
 class Body_access;
 }  // namespace detail
 
-/// A registered body: every vertex in free space (I1), every edge with a chain (I2), always. As long as it is
-/// moved with Sweep::faces, no wall pierces a face either (I3, 3D); other sweeps leave its faces alone.
-/// Refers to the snapshot, which must outlive it. Copies are bodies of their own.
+/// A registered body: every vertex in free space (I1), every edge with a chain (I2) and at least at the
+/// distance of its radius from every wall (I4), always. As long as it is moved with Sweep::faces, no wall
+/// pierces a face either (I3, 3D); other sweeps leave its faces alone. Refers to the snapshot, which must
+/// outlive it. Copies are bodies of their own.
 ///
 /// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves,
 /// registers or checks it throws Error(usage), until register_again(); its parts and positions can still be
@@ -40,9 +41,10 @@ class Body {
   /// which all its edges can be passed; which one, where several will do, is arbitrary but fixed. So is the
   /// way of an edge that may pass walls on several sides: if one of its faces lies on another side of them,
   /// the body is refused, although another way would do. Faces in the plane are not looked at.
-  /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or the
-  ///        face that a wall pierces, and where; Error(usage) naming an edge or a face that no Body_soup has;
-  ///        Error(input) naming a vertex that is not finite
+  /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or is
+  ///        nearer to one than its radius, or the face that a wall pierces, and where; Error(usage) naming an
+  ///        edge or a face that no Body_soup has; Error(input) naming a vertex that is not finite, or a
+  ///        radius that is not a finite number of at least 0
   /// Cost: one point location per vertex, one walk per edge, some us per face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Snapshot<D>&& snapshot, const Locator<D>& locator, const Body_soup<D>& soup) = delete;
@@ -70,12 +72,24 @@ class Body {
   std::span<const Point<D>> positions() const;
   std::span<const std::array<std::uint32_t, 2>> edges() const;
   std::span<const std::array<std::uint32_t, 3>> faces() const;
+  /// How far an edge keeps from every wall; 0: it may touch walls.
+  /// \throw Error(usage) if there is no such edge
+  double radius(std::size_t edge) const;
+  /// Changes the radii, in the form of Body_soup::radii. Gives a region free of walls up.
+  /// \throw Error(outside) naming the first edge or vertex that is nearer to a wall than its new radius;
+  ///        Error(input) for a wrong number of them, or one that is not a finite number of at least 0. Then
+  ///        nothing has changed
+  /// Cost: a flood for each edge through the cells nearer than its radius.
+  void set_radii(std::span<const double> radii);
   /// The other ends of the edges of a vertex, ascending.
   /// \throw Error(usage) if there is no such vertex
   std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const;
 
   /// Moves the vertices one after the other to their targets, as far as walls allow, by options.rule.
   /// Appends to the report.
+  ///
+  /// Edges with a radius keep their distance; a contact is where one would come nearer. Faces have no radius
+  /// yet.
   /// \throw Error(usage) unless there is one target a vertex, for Step_rule::reject_at_target if a vertex
   ///        has more than 64 edges, a search of a tolerance not in (0,1] off regions, and Sweep::faces after
   ///        moves that left the faces alone and let a wall pierce one; Error(input) naming a target that is
@@ -116,8 +130,9 @@ class Body {
   /// Cost: nothing unless it is stale; else that of a walk.
   Cell cell_of(std::uint32_t vertex) const;
 
-  /// Checks I1, I2 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each edge
-  /// has a valid chain from cell to cell, no wall pierces a face.
+  /// Checks I1, I2, I4 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each
+  /// edge has a valid chain from cell to cell, no wall is nearer to an edge than its radius, none pierces a
+  /// face.
   /// \throw Error(usage) if something is stale, see refresh(); Error(other) naming the first vertex, edge or
   ///        face that violates them
   void validate() const;

@@ -7,10 +7,10 @@
 
 namespace cellwalk {
 
-/// The body at its place. Each coordinate is computed with 113 binary digits and rounded once, so that it is
-/// the double nearest to the exact one but where that is nearly in the middle of two; the same bits come out
-/// on every machine. A body that is only moved is exact where the sums are doubles, and quarter turns about
-/// the coordinate axes are exact.
+/// The body at its place; radii are scaled. Each coordinate is computed with 113 binary digits and rounded
+/// once, so that it is the double nearest to the exact one but where that is nearly in the middle of two; the
+/// same bits come out on every machine. A body that is only moved is exact where the sums are doubles, and
+/// quarter turns about the coordinate axes are exact.
 /// \throw Error(usage) unless the scale is a positive number, axis and angle are finite, the axis is not
 ///        zero, and the coordinates that come out are finite
 /// Cost: about 1.3 us a vertex.

@@ -22,6 +22,9 @@ struct Body_soup {
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< u < v; in ascending order, without repetition
   /// Triangles, each side of which is an edge; no two with the same three corners. 2D bodies have none.
   std::vector<std::array<std::uint32_t, 3>> faces;
+  /// How far edges keep from every wall, finite and at least 0: none (0, they may touch walls), one for all
+  /// edges and for vertices without edges, or one for each edge. See docs/radius.md.
+  std::vector<double> radii = {};
 };
 
 /// The parts of a body. Polygons are loops of point indices; their sides and all segments become edges.

@@ -137,12 +137,13 @@ std::vector<Pierced_face> faces_turned(const Body_state<3>& body,
 
 template <int D>
 std::unique_ptr<Body_state<D>> registered_again(const Body_state<D>& body, const Locator<D>& locator) {
-  const Body_soup<D> soup{body.positions, body.topology.edges(), body.topology.faces()};
+  const Body_soup<D> soup = body.soup();
   Registered_before<D> known = known_of(body);
   const auto make = [&] {
     return std::make_unique<Body_state<D>>(*body.snapshot, locator, soup, known, body.certificates);
   };
   auto state = make();
+  check_distances(*state, state->thick, Error_code::outside);
   state->are_faces_swept = body.are_faces_swept;
   if constexpr (D == 3) {
     if (!body.are_faces_swept) return state;

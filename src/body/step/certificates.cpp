@@ -10,12 +10,7 @@ namespace cellwalk::detail {
 template <int D>
 void use_certificates(Body<D>& body, const Body_certificates& chosen, Body_counts& counts) {
   body.leave_region(counts);
-  Body_state<D>& state = Body_access<D>::state_of(body);
-  state.certificates = chosen;
-  const Body_certificates used = worthwhile(chosen, state.topology, state.positions.size());
-  state.region = Region_cache<D>(state.positions.size(), state.chains.size(), used);
-  state.pool = Region_pool<D>(state.positions.size(), used);
-  state.pool.prepare(*state.snapshot, state.particles);
+  Body_access<D>::state_of(body).begin_regions(chosen);
 }
 
 template void use_certificates(Body<2>&, const Body_certificates&, Body_counts&);

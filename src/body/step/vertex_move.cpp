@@ -5,22 +5,16 @@
 #include <cellwalk/internal/edge/edge_contact.h>
 #include <cellwalk/internal/edge/furthest_move.h>
 #include <cellwalk/internal/edge/sweep_along.h>
+#include <cellwalk/internal/kernel/uncertified.h>
 
 #include <utility>
 
 #include "body/shape/body_faces.h"
 #include "chains_in_place.h"
+#include "meets_before.h"
 
 namespace cellwalk::detail {
 namespace {
-
-/// As is_before(), but among contacts of several edges the half-facet does not count: ties go to the first
-/// edge.
-template <int D>
-bool meets_before(const Contact<D>& a, const Contact<D>& b) {
-  if (const auto order = a.exact_time() <=> b.exact_time(); order != 0) return order < 0;
-  return std::tuple(a.body, a.kind) < std::tuple(b.body, b.kind);
-}
 
 /// Writes the chain of an edge that is in place or relinked as it is seen from the vertex.
 template <int D>
@@ -119,6 +113,24 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   return first;
 }
 
+/// The first contact of a vertex if one of its edges with a radius is in the way. If none is, those without
+/// one are left.
+template <int D>
+std::optional<Contact<D>> contact_of_thick(Body_state<D>& body, Move_scratch<D>& scratch,
+                                           std::uint32_t vertex, const Point<D>& target,
+                                           const Sweep_options& options, Body_counts& counts, bool any) {
+  if (body.thick.is_free(body, vertex, target, counts.edges)) return {};
+  if (any) return Contact<D>{};
+  auto first = body.thick.first_contact(body, vertex, target, counts.edges);
+  if (!first) refuse_uncertified();
+  if (body.thick.has_thin(body.topology, vertex)) {
+    Particle<D> to;
+    const auto thin = find_contact(body, scratch, vertex, target, options, counts, any, to);
+    if (thin && meets_before(*thin, *first)) first = thin;
+  }
+  return first;
+}
+
 }  // namespace
 
 template <int D>
@@ -128,6 +140,8 @@ std::optional<Contact<D>> try_move(Body_state<D>& body, Move_scratch<D>& scratch
   if constexpr (D == 3)
     if (options.sweep == Sweep::faces) take_up_faces(body, counts);
   if (target == body.positions[vertex]) return {};
+  if (!body.thick.are_none()) [[unlikely]]
+    if (auto first = contact_of_thick(body, scratch, vertex, target, options, counts, any)) return first;
   Settled_move<D> settled;
   if (options.sweep != Sweep::faces && may_be_in_place(body, options, false) &&
       try_move_in_place(body, vertex, target, settled, counts)) {

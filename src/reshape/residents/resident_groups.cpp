@@ -38,6 +38,9 @@ Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents
     if (&group.body->snapshot() != &snapshot)
       throw Error(Error_code::usage, "a body listed lies in another environment: list it where it is");
     group.body->check_epoch();
+    if (group.body->has_radii())
+      throw Error(Error_code::usage,
+                  "a body listed has a radius: walls cannot move or change among those yet");
     group.edges = body->edges();
     group.faces = body->faces();
     group.reach = group.body->reach();

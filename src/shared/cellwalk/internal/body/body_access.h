@@ -38,6 +38,8 @@ class Body_access {
   Box<D> reach() const;
   /// Registers stale vertices and edges, and gives regions free of walls up.
   void leave_regions(Body_counts& counts);
+  /// True if an edge or a vertex has a radius.
+  bool has_radii() const;
   /// True if no wall pierces a face, and that is to stay so.
   bool keeps_faces() const;
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The edges of a body that have a radius, and its vertices without edges. Theory: docs/radius.md.
+#ifndef CELLWALK_BODY_THICK_THICK_EDGES_H
+#define CELLWALK_BODY_THICK_THICK_EDGES_H
+
+#include <cellwalk/body/step.h>
+#include <cellwalk/internal/edge/near_wall_list.h>
+#include <cellwalk/kernel/error.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "body/shape/body_topology.h"
+
+namespace cellwalk::detail {
+
+template <int D>
+struct Body_state;
+
+/// The radii of a body, and the walls near what has one.
+template <int D>
+class Thick_edges {
+ public:
+  /// A body without a radius.
+  Thick_edges() = default;
+  /// \param radii none, one for all edges and vertices, or one for each edge
+  /// \throw Error(input) for another number of them, and naming one that is not a finite number of at least 0
+  Thick_edges(std::span<const double> radii, const Body_topology& topology, std::size_t vertices);
+
+  /// True if nothing has a radius.
+  bool are_none() const { return radii_.empty() && of_vertices_ == 0; }
+  double radius(std::uint32_t edge) const { return radii_.empty() ? 0 : radii_[edge]; }
+  /// Of vertices without edges.
+  double radius_of_vertices() const { return of_vertices_; }
+  std::span<const double> radii() const { return radii_; }
+
+  /// Whether a vertex can move to a target, with all its edges that have a radius.
+  /// \pre nothing is stale; where they are, they are at least at that distance from every wall
+  bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, Edge_counts& counts);
+  /// Their first contact; none if the vertex can move.
+  std::optional<Contact<D>> first_contact(const Body_state<D>& body, std::uint32_t vertex,
+                                          const Point<D>& target, Edge_counts& counts) const;
+  /// True if some edge of a vertex has no radius, or the vertex has neither.
+  bool has_thin(const Body_topology& topology, std::uint32_t vertex) const;
+
+ private:
+  std::vector<double> radii_;  ///< of edges; empty if all are 0
+  double of_vertices_ = 0;
+  std::vector<Near_wall_list<D>> near_edges_, near_vertices_;
+};
+
+extern template class Thick_edges<2>;
+extern template class Thick_edges<3>;
+
+/// Tests that each edge and vertex with a radius is at least at that distance from every wall: invariant I4.
+/// \throw Error(code) naming the first that is not, and its distance
+template <int D>
+void check_distances(const Body_state<D>& body, const Thick_edges<D>& thick, Error_code code);
+
+/// Refuses what bodies with a radius cannot do.
+/// \throw Error(usage)
+void check_thick_step(const Body_options& options);
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_BODY_THICK_THICK_EDGES_H

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies with a radius by hand, and at random in the worlds of the walk, where all walls are measured in
+// rational arithmetic after each step.
+#include <cellwalk/body/body.h>
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/kernel/error.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "edge/thick_motions.h"
+#include "edge/thick_oracle.h"
+#include "edge/thick_rooms.h"
+#include "walk/oracle_trial.h"
+
+namespace cellwalk::test {
+namespace {
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+Body_soup<3> rod(std::vector<Point<3>> points, std::vector<double> radii) {
+  Body_soup<3> soup;
+  soup.points = std::move(points);
+  for (std::uint32_t i = 0; i + 1 < soup.points.size(); ++i) soup.edges.push_back({i, i + 1});
+  soup.radii = std::move(radii);
+  return soup;
+}
+
+class InTheMembraneRoom : public ::testing::Test {
+ protected:
+  const Environment<3> room = room_of(membranes_in_box({0, 0, 0}, {8, 8, 8}, {4}));
+};
+
+TEST_F(InTheMembraneRoom, AStopKeepsTheDistanceOfAllEdges) {
+  Body<3> body(room, rod({{2, 5, 4}, {2, 4, 4}, {2, 3, 4}}, {1, 0.25}));
+  Body_counts counts;
+  const std::array<Point<3>, 3> targets{{{2, 5, 4}, {6, 4, 4}, {2, 3, 4}}};
+  Step_report<3> report;
+  body.step(targets, {}, report, counts);
+  ASSERT_EQ(report.contacts.size(), 1u);
+  EXPECT_EQ(report.contacts[0].time, 0.25);
+  EXPECT_EQ(report.contacts[0].normal, (Vector<3>{-1, 0, 0}));
+  EXPECT_EQ(report.contacts[0].body, Body_feature::vertex);
+  EXPECT_EQ(report.contacts[0].vertex, 1u);
+  EXPECT_EQ(body.positions()[1], (Point<3>{3, 4, 4}));
+  EXPECT_NO_THROW(body.validate());
+}
+
+TEST_F(InTheMembraneRoom, EachEdgeHasItsOwnRadius) {
+  // Case 48: the thin edge is stopped at the rim, the thick one is free.
+  Body<3> body(room, rod({{6, 7, 4}, {2, 7, 4}, {2, 7, 6}}, {0.25, 1}));
+  Body_options reject;
+  reject.rule = Step_rule::reject;
+  Body_counts counts;
+  const auto contact = body.move_vertex(1, {2, 4, 4}, reject, counts);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->time, 0.48913874249067535);
+  EXPECT_EQ(contact->body, Body_feature::edge);
+  EXPECT_EQ(contact->feature, 0u);
+  EXPECT_NEAR(contact->normal[1], 0.938819, 1e-6);
+  EXPECT_EQ(body.radius(0), 0.25);
+  EXPECT_EQ(body.radius(1), 1);
+}
+
+TEST_F(InTheMembraneRoom, RadiiMayGrowWhereThereIsRoom) {
+  Body<3> body(room, rod({{3, 4, 4}, {3, 5, 4}}, {1}));
+  EXPECT_EQ(
+      refusal([&] { body.set_radii(std::array{1.5}); }),
+      "edge 0 of the body, from vertex 0 at (3, 4, 4) to vertex 1 at (3, 5, 4), is at a distance of 1 from a "
+      "wall at (4, 4, 4), in cell 0: less than its radius 1.5");
+  EXPECT_EQ(body.radius(0), 1);
+  body.set_radii(std::array{0.5});
+  body.set_radii(std::array{1.0});
+  body.set_radii({});
+  EXPECT_EQ(body.radius(0), 0);
+  EXPECT_TRUE(body.step(std::array<Point<3>, 2>{{{3.5, 4, 4}, {3, 5, 4}}}).empty());
+  EXPECT_THROW(body.set_radii(std::array{1.0}), Error);
+}
+
+TEST_F(InTheMembraneRoom, ErrorsNameWhatIsWrong) {
+  EXPECT_EQ(refusal([&] {
+              Body<3>(room, rod({{3.5, 4, 4}, {2, 4, 4}}, {1}));
+            }),
+            "edge 0 of the body, from vertex 0 at (3.5, 4, 4) to vertex 1 at (2, 4, 4), is at a distance of "
+            "0.5 from "
+            "a wall at (4, 4, 4), in cell 0: less than its radius 1");
+  Body_soup<3> points;
+  points.points = {{2, 4, 4}, {3.5, 4, 4}};
+  points.radii = {1};
+  EXPECT_EQ(refusal([&] { Body<3>(room, points); }),
+            "vertex 1 of the body, at (3.5, 4, 4), is at a distance of 0.5 from a wall at (4, 4, 4), in cell "
+            "0: less "
+            "than its radius 1");
+  EXPECT_EQ(refusal([&] {
+              Body<3>(room, rod({{2, 4, 4}, {2, 5, 4}}, {-1}));
+            }),
+            "radius 0 of the body takes a finite number of at least 0, not -1");
+  EXPECT_EQ(refusal([&] {
+              Body<3>(room, rod({{2, 4, 4}, {2, 5, 4}}, {1, 2}));
+            }),
+            "2 radii are given for a body of 1 edges: give one for each, or one for all");
+  Body<3> body(room, rod({{2, 4, 4}, {2, 5, 4}}, {1}));
+  Body_counts counts;
+  Step_report<3> report;
+  const auto refused = [&](const auto& choose) {
+    Body_options options;
+    choose(options);
+    return refusal([&] { body.step(body.positions(), options, report, counts); });
+  };
+  EXPECT_EQ(refused([](Body_options& o) { o.rule = Step_rule::reject_at_target; }),
+            "the rule reject_at_target: not for bodies with a radius; take slide or reject");
+  EXPECT_EQ(refused([](Body_options& o) { o.sweep.sweep = Sweep::faces; }),
+            "sweep faces: not for bodies with a radius; take triangle");
+  EXPECT_EQ(refused([](Body_options& o) { o.sweep.touch = Touch::stop; }),
+            "touch stop: not for motions with a radius, which touch no wall");
+}
+
+TEST_F(InTheMembraneRoom, PointsHaveTheRadiusOfTheirBody) {
+  Body_soup<3> points;
+  points.points = {{2, 4, 4}, {6, 4, 4}};
+  points.radii = {0.5};
+  Body<3> body(room, points);
+  const auto contacts = body.step(std::array<Point<3>, 2>{{{8, 4, 4}, {4, 4, 4}}});
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_EQ(body.positions()[0], (Point<3>{3.5, 4, 4}));
+  EXPECT_EQ(body.positions()[1], (Point<3>{4.5, 4, 4}));
+}
+
+TEST_F(InTheMembraneRoom, SavedBodiesKeepTheirRadii) {
+  Body<3> body(room, rod({{2, 5, 4}, {2, 4, 4}, {2, 3, 4}}, {1, 0.25}));
+  const std::array<Point<3>, 3> targets{{{2, 5, 4}, {6, 4, 4}, {7, 3, 4}}};
+  Body<3> restored = restore_body(room.snapshot(), save(body));
+  EXPECT_EQ(restored.radius(1), 0.25);
+  EXPECT_EQ(body.step(targets).size(), restored.step(targets).size());
+  EXPECT_TRUE(std::ranges::equal(body.positions(), restored.positions()));
+  EXPECT_EQ(save(body), save(restored));
+  Body<3> copy = body;
+  EXPECT_EQ(copy.radius(0), 1);
+}
+
+/// A rod that slides along a facet in no plane of an axis, and rests on it.
+TEST(ThickBodies, RestOnAnObliqueFacet) {
+  const Environment<3> room = room_of(oblique_facet());
+  const Thick_oracle<3> oracle(room.snapshot());
+  Body<3> body(room, rod({{4, 4, 6}, {4, 5, 6}, {4, 6, 6}}, {1}));
+  Body_counts counts;
+  for (int step = 0; step < 100; ++step) {
+    std::vector<Point<3>> targets(body.positions().begin(), body.positions().end());
+    for (Point<3>& x : targets) x = x + Vector<3>{0.01, 0.005, -0.1};
+    Step_report<3> report;
+    body.step(targets, {}, report, counts);
+    for (std::size_t e = 0; e < 2; ++e)
+      ASSERT_TRUE(root_is_at_least(
+          oracle.square_to_walls(std::array{body.positions()[e], body.positions()[e + 1]}), 1))
+          << step;
+  }
+  EXPECT_GT(counts.contacts, 100u);
+  const auto nearest =
+      root_rounded_down(oracle.square_to_walls(std::array<Point<3>, 1>{body.positions()[0]}));
+  EXPECT_LT(nearest, 1 + 1e-9);
+}
+
+/// A cord of radius 1.2 that is pushed through a channel of 8 by 8, and shaken. By the same arithmetic as its
+/// walls, each coordinate across it is at least 1.2 from both.
+TEST(ThickBodies, ACordKeepsOffTheWallsOfAChannel) {
+  const double radius = 1.2;
+  const Environment<3> channel = room_of(stretched<3>(oracle::make_cubes(2, 2, 60), {4, 4, 4}));
+  std::vector<Point<3>> points;
+  for (int i = 0; i < 40; ++i) points.push_back({4, 4, 80 - 1.5 * i});
+  Body<3> cord(channel, rod(points, {radius}));
+  Random random(7);
+  Body_counts counts;
+  int at_walls = 0;
+  Vector<3> push{};
+  const auto steps = static_cast<int>(oracle::scaled_count(300));
+  for (int step = 0; step < steps; ++step) {
+    std::vector<Point<3>> targets(cord.positions().begin(), cord.positions().end());
+    if (step % 25 == 0) push = {random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 0.4)};
+    for (Point<3>& x : targets)
+      x = x + 0.4 * push + Vector<3>{random.real(-0.2, 0.2), random.real(-0.2, 0.2), random.real(-0.1, 0.1)};
+    Step_report<3> report;
+    cord.step(targets, {}, report, counts);
+    for (const Point<3>& x : cord.positions())
+      for (const std::size_t k : {0, 1}) {
+        ASSERT_TRUE(Fraction(x[k]) >= Fraction(radius)) << step;
+        ASSERT_TRUE(Fraction(8) - Fraction(x[k]) >= Fraction(radius)) << step;
+        at_walls += x[k] < radius + 1e-9 || x[k] > 8 - radius - 1e-9;
+      }
+  }
+  EXPECT_NO_THROW(cord.validate());
+  if (oracle::is_shortened()) return;
+  EXPECT_GT(at_walls, 10 * steps);
+}
+
+struct Judged {
+  int steps = 0, moved = 0, contacts = 0, bodies = 0, at_radius = 0;
+};
+
+/// The vertices of a body in turn: each goes straight to where it is after the step, or in pieces of which
+/// the last one ends there. Its edges keep their distance where it has gone, as far as positions tell.
+template <int D>
+void judge(const Thick_oracle<D>& oracle, const Body<D>& body) {
+  for (std::size_t e = 0; e < body.edges().size(); ++e) {
+    const auto [u, v] = body.edges()[e];
+    const std::array<Point<D>, 2> edge{body.positions()[u], body.positions()[v]};
+    ASSERT_TRUE(root_is_at_least(oracle.square_to_walls(edge), body.radius(e))) << "edge " << e;
+  }
+}
+
+template <int D>
+void walk_about(std::uint64_t seed, Judged& judged) {
+  const oracle::World<D> world = thick_world<D>(seed);
+  const Snapshot<D> snapshot = Snapshot<D>::compile(world.soup, glue(world.soup));
+  const Locator<D> locator(snapshot);
+  const Thick_oracle<D> oracle(snapshot);
+  if (oracle.walls().empty()) return;
+  Thick_motions<D> motions(world, oracle, seed);
+  Random random(seed);
+  // A polyline of the ends of a motion, whose edges have radii of which all are possible at first.
+  for (int tries = 0; tries < 4; ++tries) {
+    const Thick_motion<D> m = motions.next();
+    Body_soup<D> soup;
+    soup.points = {m.p, m.q, m.p};
+    soup.edges = {{0, 1}, {1, 2}};
+    const double most = root_rounded_down(oracle.square_to_walls(std::array{m.p, m.q}));
+    if (!(most > 0)) continue;
+    const auto radius = [&] { return random.chance(0.3) ? most : most * random.real(); };
+    soup.radii =
+        random.chance(0.3) ? std::vector{radius()} : std::vector{radius(), random.chance(0.3) ? 0 : radius()};
+    std::optional<Body<D>> body;
+    try {
+      body.emplace(snapshot, locator, soup);
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), Error_code::outside);  // on a wall, without a radius
+      continue;
+    }
+    ++judged.bodies;
+    Body_options options;
+    if (random.chance(0.3)) options.rule = Step_rule::reject;
+    const Vector<D> way = m.target - m.p;
+    Body_counts counts;
+    for (int step = 0; step < 6; ++step) {
+      const std::vector<Point<D>> before(body->positions().begin(), body->positions().end());
+      std::vector<Point<D>> targets = before;
+      for (Point<D>& x : targets)
+        if (random.chance(0.7)) x = x + std::ldexp(1, -static_cast<int>(random.below(3))) * way;
+      Step_report<D> report;
+      body->step(targets, options, report, counts);
+      ++judged.steps;
+      judged.contacts += static_cast<int>(report.contacts.size());
+      judge(oracle, *body);
+      ASSERT_FALSE(::testing::Test::HasFatalFailure()) << "world " << seed;
+      ASSERT_NO_THROW(body->validate());
+      for (std::size_t v = 0; v < before.size(); ++v) {
+        judged.moved += body->positions()[v] != before[v];
+        if (options.rule == Step_rule::slide || body->positions()[v] == before[v]) continue;
+        // It went straight there, while those before it were moved already.
+        EXPECT_EQ(body->positions()[v], targets[v]);
+        for (const std::uint32_t w : body->neighbours(static_cast<std::uint32_t>(v))) {
+          const Point<D>& still = w < v ? body->positions()[w] : before[w];
+          const std::size_t e = std::min<std::size_t>(v, w);
+          ASSERT_TRUE(root_is_at_least(oracle.square_to_walls(std::array{before[v], targets[v], still}),
+                                       body->radius(e)))
+              << "world " << seed << " edge " << e;
+        }
+      }
+      // Where nothing was in the way, something is nearer than the radius to what would have been swept.
+      if (options.rule != Step_rule::reject) continue;
+      for (const Contact<D>& contact : report.contacts) {
+        const std::uint32_t v = contact.vertex;
+        bool is_blocked = false, has_thin = false;
+        for (const std::uint32_t w : body->neighbours(v)) {
+          const Point<D>& still = w < v ? body->positions()[w] : before[w];
+          const double r = body->radius(std::min<std::size_t>(v, w));
+          has_thin |= r == 0;
+          is_blocked |=
+              r > 0 && !root_is_at_least(oracle.square_to_walls(std::array{before[v], targets[v], still}), r);
+        }
+        EXPECT_TRUE(is_blocked || has_thin) << "world " << seed;
+      }
+    }
+    for (std::size_t e = 0; e < 2; ++e)
+      judged.at_radius += body->radius(e) > 0 && root_rounded_down(oracle.square_to_walls(std::array{
+                                                     body->positions()[e], body->positions()[e + 1]})) <
+                                                     body->radius(e) * (1 + 1e-9);
+  }
+}
+
+template <int D>
+void test_random() {
+  Judged judged;
+  const int worlds = static_cast<int>(oracle::scaled_count(120));
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(worlds); ++seed) {
+    walk_about<D>(seed, judged);
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  SCOPED_TRACE(::testing::Message() << judged.bodies << " bodies, " << judged.steps << " steps, "
+                                    << judged.moved << " moves, " << judged.contacts
+                                    << " contacts, at their radius " << judged.at_radius);
+  if (oracle::is_shortened()) return;
+  EXPECT_GT(judged.bodies, 2 * worlds);
+  EXPECT_GT(judged.moved, 10 * worlds);
+  EXPECT_GT(judged.contacts, 5 * worlds);
+  EXPECT_GT(judged.at_radius, worlds / 2);
+}
+
+TEST(ThickBodies, KeepTheirDistance2) { test_random<2>(); }
+TEST(ThickBodies, KeepTheirDistance3) { test_random<3>(); }
+
+}  // namespace
+}  // namespace cellwalk::test
