@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a radius costs: free edges of length 0.3 in the vessel of the demo, whose one end moves there and back
+// by 0.05. Without a radius as a sweep of the triangle; with one by a flood each time, and by a list of near
+// walls.
+#include <cellwalk/environment/environment.h>
+#include <cellwalk/generators/vessel.h>
+#include <cellwalk/internal/edge/near_wall_list.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/query/query.h>
+
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+namespace {
+
+using namespace cellwalk;
+
+constexpr double length_of_edges = 0.3, length_of_moves = 0.05;
+
+const Environment<3>& vessel() {
+  static const auto environment = Environment<3>::build(branching_vessel({}));
+  return environment;
+}
+
+struct Edge {
+  Particle<3> p, q;
+  Point<3> target;
+  Chain chain;
+};
+
+/// Edges whose moves are free with a radius.
+const std::vector<Edge>& edges(double radius) {
+  static double known = -1;
+  static std::vector<Edge> result;
+  if (known == radius) return result;
+  known = radius;
+  result.clear();
+  const Snapshot<3>& snapshot = vessel().snapshot();
+  const Locator<3> locator(snapshot);
+  Random random(3);
+  Edge_counts counts;
+  const auto direction = [&] {
+    return normalized(Vector<3>{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)});
+  };
+  while (result.size() < 2000) {
+    const Point<3>& corner = snapshot.points()[random.below(snapshot.points().size())];
+    const Point<3> p = corner + 0.3 * random.real() * direction(), q = p + length_of_edges * direction(),
+                   t = p + length_of_moves * direction();
+    const Edge_motion<3> motion{p, t, q, radius};
+    if (answer_sweep<3>(snapshot, locator, motion, {}, counts).status != Motion_status::free) continue;
+    Edge e{locator.particle_at(p).value(), locator.particle_at(q).value(), t, {}};
+    e.chain = find_chain(snapshot, e.p, e.q, counts.walk).chain;
+    result.push_back(e);
+  }
+  return result;
+}
+
+double radius_of(const benchmark::State& state) { return static_cast<double>(state.range(0)) / 100; }
+
+void without_radius(benchmark::State& state) {
+  const auto& all = edges(radius_of(state));
+  Edge_counts counts;
+  for (auto _ : state)
+    for (const Edge& e : all)
+      benchmark::DoNotOptimize(
+          sweep_edge(vessel().snapshot(), e.p, e.target, e.q, e.chain, {}, counts).contact);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+
+void by_flood(benchmark::State& state) {
+  const auto& all = edges(radius_of(state));
+  Edge_counts counts;
+  for (auto _ : state)
+    for (const Edge& e : all)
+      benchmark::DoNotOptimize(
+          detail::sweep_thick<3>(vessel().snapshot(), e.p.cell,
+                                 {e.p.position, e.target, e.q.position, radius_of(state)}, counts)
+              .contact);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+  state.counters["cells"] = static_cast<double>(counts.flooded_cells) / static_cast<double>(counts.floods);
+}
+
+void by_list(benchmark::State& state) {
+  const auto& all = edges(radius_of(state));
+  std::vector<detail::Near_wall_list<3>> lists(all.size());
+  Edge_counts counts;
+  const auto move = [&](std::size_t i) {
+    return lists[i].is_free(vessel().snapshot(), all[i].p.cell,
+                            {all[i].p.position, all[i].target, all[i].q.position, radius_of(state)}, counts);
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) move(i);  // makes the list
+  for (auto _ : state)
+    for (std::size_t i = 0; i < all.size(); ++i) benchmark::DoNotOptimize(move(i));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+
+/// A list, made and used once.
+void list_made(benchmark::State& state) {
+  const auto& all = edges(radius_of(state));
+  Edge_counts counts;
+  for (auto _ : state)
+    for (const Edge& e : all) {
+      detail::Near_wall_list<3> list;
+      benchmark::DoNotOptimize(list.is_free(
+          vessel().snapshot(), e.p.cell, {e.p.position, e.target, e.q.position, radius_of(state)}, counts));
+    }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+
+BENCHMARK(without_radius)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK(by_flood)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK(by_list)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK(list_made)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
