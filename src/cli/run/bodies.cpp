@@ -63,6 +63,8 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
     sizes.vertices += moving.body().vertex_count();
     sizes.edges += moving.body().edges().size();
     sizes.faces += moving.body().faces().size();
+    for (std::size_t e = 0; e < moving.body().edges().size(); ++e)
+      sizes.thick_edges += moving.body().radius(e) > 0;
     const std::optional<std::size_t> entry = world.entry_of(i);
     if (!entry) continue;
     sizes.guided += scene.bodies[*entry].guided.has_value();

@@ -45,7 +45,8 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>
                          const std::vector<Point<D>>& before, double time_step) {
   io::Vtu_grid grid;
   Integers body_of_point, vertex_of_point, body, feature, number;
-  std::vector<double> velocity;
+  std::vector<double> velocity, radius;
+  bool has_radii = false;
   std::vector<std::array<std::size_t, 3>> begin;  // cells of each body: its vertices, edges, faces
   for (std::size_t b = 0; b < world.bodies().size(); ++b) {
     const Moving_body<D>& moving = world.bodies()[b];
@@ -57,6 +58,8 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>
       body.push_back(i);
       feature.push_back(static_cast<std::int64_t>(of));
       number.push_back(static_cast<std::int64_t>(at));
+      radius.push_back(of == Body_feature::edge ? moving.body().radius(at) : 0);
+      has_radii |= radius.back() > 0;
     };
     for (const Point<D>& x : world.positions(b)) {
       const std::size_t point = grid.points.size();
@@ -85,6 +88,7 @@ io::Vtu_grid bodies_grid(const World<D>& world, const std::vector<Run_contact<D>
   grid.cell_data.push_back({"feature", 1, std::move(feature)});
   grid.cell_data.push_back({"number", 1, std::move(number)});
   grid.cell_data.push_back({"contacts", 1, std::move(met)});
+  if (has_radii) grid.cell_data.push_back({"radius", 1, std::move(radius)});
   return grid;
 }
 

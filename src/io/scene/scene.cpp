@@ -122,8 +122,8 @@ std::optional<Catheter_ends<D>> catheter_ends(const Json_node& node) {
 
 template <int D>
 Catheter<D> catheter(const Json_node& node) {
-  node.expect_keys({"particles", "spacing", "advance", "stiffness", "path", "find_route", "from", "to",
-                    "steering", "tip", "twist"});
+  node.expect_keys({"particles", "spacing", "advance", "stiffness", "radius", "path", "find_route", "from",
+                    "to", "steering", "tip", "twist"});
   Catheter<D> result;
   result.ends = catheter_ends<D>(node);
   if (result.ends) result.particles = 0, result.spacing = 0;
@@ -133,6 +133,7 @@ Catheter<D> catheter(const Json_node& node) {
     result.particles = static_cast<std::uint32_t>(n->integer_in(2, detail::most_particles));
   if (const auto advance = node.find("advance")) result.advance = advance->positive();
   if (const auto stiffness = node.find("stiffness")) result.stiffness = stiffness->number_in(0, 1);
+  if (const auto radius = node.find("radius")) result.radius = radius->number_in(0, detail::largest_radius);
   if (const auto find_route = node.find("find_route")) result.find_route = find_route->boolean();
   curve(node, result);
   if (!result.ends) result.path = detail::waypoints<D>(node.at("path"));
@@ -260,6 +261,17 @@ Scene_output output(const Json_node& node) {
   return result;
 }
 
+/// \throw Error(input) naming the first body with a radius
+template <int D>
+void refuse_radii(const Json_node& node, const Scene<D>& scene) {
+  constexpr const char* reason =
+      "not among walls that move or change: leave out the radius, or \"walls\" and "
+      "\"changes\"";
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].edge_radius > 0) node.at("bodies").elements()[i].at("edge_radius").fail(reason);
+  if (scene.catheter && scene.catheter->radius > 0) node.at("catheter").at("radius").fail(reason);
+}
+
 template <int D>
 Scene<D> scene(const Json_node& node) {
   node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "walls", "groups",
@@ -280,6 +292,7 @@ Scene<D> scene(const Json_node& node) {
         node.at("changes").elements()[i].at("cut").fail(
             "a cut makes vertices that know nothing of \"pulsation\" or \"soft\": leave these out, or give "
             "\"tissue\"");
+  if (result.walls || !result.changes.list.empty()) refuse_radii(node, result);
   if (result.particles.empty() && result.bodies.empty() && !result.catheter)
     node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
   if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();

@@ -125,8 +125,8 @@ const std::vector<Known_shape<3>>& known_shapes<3>() {
 
 template <int D>
 Body_source<D> source(const Json_node& node) {
-  std::vector<std::string_view> keys{"file", "shape", "position", "scale", "rotation", "velocity",
-                                     "spin", "count", "seed",     "speed", "motion",   "material"};
+  std::vector<std::string_view> keys{"file",  "shape", "position", "scale",  "rotation", "velocity",   "spin",
+                                     "count", "seed",  "speed",    "motion", "material", "edge_radius"};
   if (node.has("file") == node.has("shape")) node.fail("expected either \"file\" or \"shape\"");
   if (const auto file = node.find("file")) {
     node.expect_keys(keys);
@@ -241,6 +241,7 @@ Body_start<D> body_start(const Json_node& node) {
       motion->fail("expected \"thrown\" or {\"path\": ..., \"speed\": ...}");
   }
   if (const auto m = node.find("material")) start.material = material(*m);
+  if (const auto r = node.find("edge_radius")) start.edge_radius = r->number_in(0, largest_radius);
   if (start.guided) {
     refuse_beside(node, {"material"}, "not for a body on a path, which is rigid");
     refuse_beside(node, {"position", "velocity", "count", "seed", "speed"},

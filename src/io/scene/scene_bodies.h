@@ -9,6 +9,8 @@
 
 namespace cellwalk::io::detail {
 
+inline constexpr double largest_radius = 1e300;  // units of the environment
+
 constexpr std::uint64_t most_particles = 10'000'000;
 
 /// `count`, `seed` and `speed` of a random cloud; `node` has the first.

@@ -20,6 +20,15 @@ Moving_body<D> throw_body(Body<D> body, const Body_start<D>& start, const Vector
   return Rigid_body<D>(std::move(body), velocity, start.spin);
 }
 
+/// The shape at its place, with the radius of the scene.
+template <int D>
+Body_soup<D> placed(const Body_soup<D>& shape, const Body_placement<D>& placement,
+                    const Body_start<D>& start) {
+  Body_soup<D> result = transformed(shape, placement);
+  if (start.edge_radius > 0) result.radii = {start.edge_radius};
+  return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -45,7 +54,7 @@ template <int D>
 void World<D>::place_body(const Body_start<D>& start, const Body_soup<D>& shape, const Locator<D>& locator) {
   Body_placement<D> placement = start.placement;
   if (start.guided) placement.position = start.guided->path.front();
-  Body<D> body(*snapshot_, locator, transformed(shape, placement));
+  Body<D> body(*snapshot_, locator, placed(shape, placement, start));
   if (start.guided)
     bodies_.emplace_back(Rigid_body<D>(std::move(body), *start.guided, start.spin));
   else
@@ -62,9 +71,9 @@ void World<D>::place_copies(const Body_start<D>& start, const Body_soup<D>& shap
   const auto has_place = [&] {
     for (int i = 0; i < most_tries; ++i) {
       placement.position = space.draw(random).position;
-      const Body_soup<D> placed = transformed(shape, placement);
+      const Body_soup<D> there = placed(shape, placement, start);
       try {
-        Body<D> body(*snapshot_, locator, placed);
+        Body<D> body(*snapshot_, locator, there);
         const Vector<D> velocity = start.cloud->speed * detail::random_direction<D>(random);
         bodies_.push_back(throw_body(std::move(body), start, velocity));
         return true;

@@ -103,8 +103,12 @@ void World<D>::place_catheter(const Catheter<D>& catheter, const Locator<D>& loc
     way.insert(way.end(), route.begin() + 1, route.end());
     here = next;
   }
-  Body<D> body(*snapshot_, locator, Rod<D>::at_entry(catheter));
-  bodies_.emplace_back(Rod<D>(*snapshot_, std::move(body), catheter, std::move(way)));
+  try {
+    Body<D> body(*snapshot_, locator, Rod<D>::at_entry(catheter));
+    bodies_.emplace_back(Rod<D>(*snapshot_, std::move(body), catheter, std::move(way)));
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("catheter: {}", error.what()));
+  }
   entry_of_.push_back({});
 }
 

@@ -32,6 +32,7 @@ Body_soup<D> Rod<D>::at_entry(const Catheter<D>& catheter) {
   Body_soup<D> soup;
   soup.points.assign(catheter.particles, catheter.path.front());
   for (std::uint32_t i = 0; i + 1 < catheter.particles; ++i) soup.edges.push_back({i, i + 1});
+  if (catheter.radius > 0) soup.radii = {catheter.radius};
   return soup;
 }
 

@@ -155,11 +155,13 @@ const Body_refusal of_space[] = {
      "polyline, "
      "tetrahedron"},
     {R"({"shape": "box"}, {"shape": "tetrahedron", "radius": 1})",
-     "bodies[1].radius: unknown key; known here: count, file, material, motion, position, rotation, scale, "
+     "bodies[1].radius: unknown key; known here: count, edge_radius, file, material, motion, position, "
+     "rotation, scale, "
      "seed, shape, side, "
      "speed, spin, velocity"},
     {R"({"file": "a", "side": 1})",
-     "bodies[0].side: unknown key; known here: count, file, material, motion, position, rotation, scale, "
+     "bodies[0].side: unknown key; known here: count, edge_radius, file, material, motion, position, "
+     "rotation, scale, "
      "seed, "
      "shape, speed, "
      "spin, velocity"},

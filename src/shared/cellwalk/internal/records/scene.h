@@ -81,6 +81,7 @@ struct Body_start {
   std::optional<Particle_cloud> cloud{};     ///< copies, each with its own position and velocity
   std::optional<Guided_motion<D>> guided{};  ///< none: the body is thrown, and flies freely under gravity
   std::optional<Shape_material> material{};  ///< of a thrown body; none: it is rigid
+  double edge_radius = 0;                    ///< how far its edges keep from every wall
 };
 
 /// The steering of a catheter towards its waypoints.
@@ -107,6 +108,7 @@ struct Catheter {
   double spacing = 1;            ///< distance between neighbours
   double advance = 0.5;          ///< distance by which it is pushed in a step
   double stiffness = 0.5;        ///< 0: a thread, 1: bends as little as the walls allow
+  double radius = 0;             ///< how far it keeps from every wall
   std::vector<Point<D>> path;    ///< waypoints, at least two; it enters at the first, towards the second
   bool find_route = false;       ///< join waypoints by a route through the cells instead of straight lines
   std::optional<Catheter_ends<D>> ends{};  ///< of the path, before it is found
