@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -99,6 +100,38 @@ TEST(RepairOfEdges, PlatesHaveNoLumen) {
   const Repaired r = repair(open);
   EXPECT_EQ(r.step("lumen"), "");
   EXPECT_DOUBLE_EQ(r.certificate.free_volume, 162);
+}
+
+/// A channel with the profile of a horseshoe: rays from one leg meet the other one, but what is between them
+/// is open.
+TEST(RepairOfEdges, AChannelThatBendsBackIsNoWall) {
+  Surface_soup s;
+  // Around the profile; two corners in the middle of straight sides part it into three quadrangles.
+  const std::array<std::array<double, 2>, 8> profile{
+      {{0, 0}, {1, 0}, {9, 0}, {10, 0}, {10, 10}, {9, 10}, {9, 1}, {1, 1}}};
+  for (const double z : {0., 9.})
+    for (const auto& [x, y] : profile) s.points.push_back({x, y, z});
+  s.points.push_back({0, 10, 0}), s.points.push_back({1, 10, 0});
+  s.points.push_back({0, 10, 9}), s.points.push_back({1, 10, 9});
+  constexpr std::uint32_t a = 16, b = 17;  // the ends of the first leg; 2 higher on the other side
+  const std::vector<std::vector<std::uint32_t>> quadrangles{{0, 1, 7, b, a}, {1, 2, 6, 7}, {2, 3, 4, 5, 6}};
+  const auto above = [](std::uint32_t v) { return v < 8 ? v + 8 : v + 2; };
+  for (const auto& q : quadrangles) {
+    s.facets.push_back({q.rbegin(), q.rend()});
+    s.facets.emplace_back();
+    for (const std::uint32_t v : q) s.facets.back().push_back(above(v));
+  }
+  const std::vector<std::uint32_t> around{0, 1, 2, 3, 4, 5, 6, 7, b, a};
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const std::uint32_t v = around[i], w = around[(i + 1) % around.size()];
+    s.facets.push_back({v, w, above(w), above(v)});
+  }
+  const double volume = 9 * (10 + 8 + 10);
+  EXPECT_DOUBLE_EQ(repair(s).certificate.free_volume, volume);
+  s.facets.erase(s.facets.begin() + 8);  // an open end, so that no closed surface speaks for itself
+  const Repaired open = repair(s);
+  EXPECT_EQ(open.step("lumen"), "");
+  EXPECT_NEAR(open.certificate.free_volume, volume, 1e-9);
 }
 
 /// A refusal says where directions, or the two sides of a band, are the reason.
