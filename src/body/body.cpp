@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -42,6 +44,13 @@ void check_rule(const Body_options& options, const detail::Body_topology& topolo
   throw Error(
       Error_code::usage,
       fmt::format("{} targets are given for a body of {} vertices: give one for each", targets, vertices));
+}
+
+[[noreturn]] void refuse_stale(const char* function) {
+  throw Error(Error_code::usage,
+              fmt::format("a body that moved in a region free of walls is not registered yet: "
+                          "call Body::refresh() before {}",
+                          function));
 }
 
 /// \throw Error(input) naming the first target that is not finite
@@ -158,6 +167,23 @@ double Body<D>::radius(std::size_t edge) const {
 }
 
 template <int D>
+std::vector<double> Body<D>::clearances(double up_to) const {
+  state_->check_epoch();
+  if (!(up_to >= 0 && std::isfinite(up_to)))
+    throw Error(Error_code::usage,
+                fmt::format("clearances take a finite number of at least 0, not {}", up_to));
+  if (state_->region.is_any_stale()) refuse_stale("Body::clearances()");
+  std::vector<double> result;
+  for (std::uint32_t e = 0; e < edges().size(); ++e) {
+    const auto [u, v] = edges()[e];
+    const double found = detail::clearance<D>(*state_->snapshot, state_->particles[u].cell, positions()[u],
+                                              positions()[v], up_to);
+    result.push_back(std::max(found, std::min(up_to, state_->thick.radius(e))));
+  }
+  return result;
+}
+
+template <int D>
 void Body<D>::set_radii(std::span<const double> radii) {
   state_->check_epoch();
   detail::Thick_edges<D> thick(radii, state_->topology, vertex_count());
@@ -242,10 +268,7 @@ void Body<D>::leave_region(Body_counts& counts) {
 template <int D>
 void Body<D>::validate() const {
   state_->check_epoch();
-  if (state_->region.is_any_stale())
-    throw Error(Error_code::usage,
-                "a body that moved in a region free of walls is not registered yet: call "
-                "Body::refresh() before Body::validate()");
+  if (state_->region.is_any_stale()) refuse_stale("Body::validate()");
   const Snapshot<D>& snapshot = *state_->snapshot;
   const auto& [positions, particles, chains] = std::tie(state_->positions, state_->particles, state_->chains);
   Walk_counts counts;

@@ -75,6 +75,13 @@ class Body {
   /// How far an edge keeps from every wall; 0: it may touch walls.
   /// \throw Error(usage) if there is no such edge
   double radius(std::size_t edge) const;
+  /// For each edge a lower bound of its distance to all walls, or `up_to` where it is farther from them: for
+  /// solvers that place barriers or penalties (docs/radius.md). It is at least the radius of the edge, and
+  /// below the distance by rounding only.
+  /// \param up_to finite, at least 0: walls farther away are not looked at
+  /// \throw Error(usage) if something is stale, see refresh(), or if `up_to` is negative or not finite
+  /// Cost: for each edge a flood through the cells nearer than that, 20 to 60 ns a facet, and 0.3 us a wall.
+  std::vector<double> clearances(double up_to) const;
   /// Changes the radii, in the form of Body_soup::radii. Gives a region free of walls up.
   /// \throw Error(outside) naming the first edge or vertex that is nearer to a wall than its new radius;
   ///        Error(input) for a wrong number of them, or one that is not a finite number of at least 0. Then

@@ -52,7 +52,7 @@ class Near_walls {
 
   /// Calls use(wall) for each wall near the hull, seen from the free cell that the flood reached.
   /// \param start a free cell that contains a point of the hull
-  /// \param cells the cells of the flood, for whom it may concern afterwards
+  /// \param cells receives the cells of the flood
   template <class Use>
   void visit(Cell start, Cell_list& cells, Use use) const {
     cells.assign(start);

@@ -136,6 +136,22 @@ Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick
   return Thick_sweep<D>(snapshot, start, motion).run(counts);
 }
 
+template <int D>
+double clearance(const Snapshot<D>& snapshot, Cell start, const Point<D>& p, const Point<D>& q,
+                 double up_to) {
+  const Points<D> edge{p, q};
+  Cell_list cells;
+  double least = up_to;
+  Near_walls<D>(snapshot, in<D>(edge), up_to).visit(start, cells, [&](Half_facet wall) {
+    const Points<D> corners = corners_of(snapshot, wall);
+    least = std::min(least, distance_bound<D>(in<D>(edge), in<D>(corners)));
+  });
+  return least;
+}
+
+template double clearance<2>(const Snapshot<2>&, Cell, const Point<2>&, const Point<2>&, double);
+template double clearance<3>(const Snapshot<3>&, Cell, const Point<3>&, const Point<3>&, double);
+
 template Thick_result<2> sweep_thick<2>(const Snapshot<2>&, Cell, const Thick_motion<2>&, Edge_counts&);
 template Thick_result<3> sweep_thick<3>(const Snapshot<3>&, Cell, const Thick_motion<3>&, Edge_counts&);
 

@@ -5,6 +5,7 @@
 #include <cellwalk/internal/kernel/greatest_double.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "filter.h"
@@ -134,6 +135,17 @@ template Vector<2> common_normal<2>(const Point<2>&, const Point<2>&, double, st
                                     std::span<const Point<2>>);
 template Vector<3> common_normal<3>(const Point<3>&, const Point<3>&, double, std::span<const Point<3>>,
                                     std::span<const Point<3>>);
+
+template <int D>
+double distance_bound(std::span<const Point<D>> a, std::span<const Point<D>> b) {
+  const Filter<D> filter(a, b, 0);
+  if (!filter.is_in_range()) return 0;
+  const Relative_nearest<D> nearest = nearest_features<D>(a, b);
+  return std::max({0.0, filter.gap(nearest.features), filter.gap(nearest.on_b - nearest.on_a)});
+}
+
+template double distance_bound<2>(std::span<const Point<2>>, std::span<const Point<2>>);
+template double distance_bound<3>(std::span<const Point<3>>, std::span<const Point<3>>);
 
 template <int D>
 double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<D>> b) {

@@ -19,6 +19,7 @@
 #ifndef CELLWALK_KERNEL_DISTANCE_FILTER_H
 #define CELLWALK_KERNEL_DISTANCE_FILTER_H
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -58,11 +59,12 @@ class Filter {
   /// False if the bounds of this class do not hold.
   bool is_in_range() const { return extent_ > 0x1p-400 && extent_ < 0x1p400; }
 
-  /// True proves that the hulls are more than r apart along a direction, either way.
+  /// A lower bound of the distance, by a direction, either way: it is negative where the direction shows
+  /// nothing.
   /// \pre is_in_range()
-  bool parts(const Vector<D>& n) const {
+  double gap(const Vector<D>& n) const {
     const double squared = dot(n, n);
-    if (!(squared > 0x1p-900 && squared < 0x1p900)) return false;
+    if (!(squared > 0x1p-900 && squared < 0x1p900)) return -1;
     const Vector<D> v = ((1 - 0x1p-50) / std::sqrt(squared)) * n;
     double a_low = dot(v, a_[0] - b_[0]), a_high = a_low, b_low = 0, b_high = 0;
     for (std::size_t i = 1; i < a_.size(); ++i) {
@@ -73,9 +75,13 @@ class Filter {
       const double at = dot(v, b_[i] - b_[0]);
       b_low = std::min(b_low, at), b_high = std::max(b_high, at);
     }
-    return std::max(b_low - a_high, a_low - b_high) - 0x1p-48 * extent_ > r_;
+    return std::max(b_low - a_high, a_low - b_high) - 0x1p-48 * extent_;
   }
-  bool parts(const Feature_pair& pair) const { return parts(direction_of<double, D>({a_, b_}, pair)); }
+  double gap(const Feature_pair& pair) const { return gap(direction_of<double, D>({a_, b_}, pair)); }
+
+  /// True proves that the hulls are more than r apart along a direction.
+  /// \pre is_in_range()
+  bool parts(const Feature_pair& pair) const { return gap(pair) > r_; }
 
   /// True proves that two points are nearer than r.
   /// \pre is_in_range(); the points are from nearest_in_doubles()

@@ -128,6 +128,16 @@ TEST_F(InTheMembraneRoom, ErrorsNameWhatIsWrong) {
             "touch stop: not for motions with a radius, which touch no wall");
 }
 
+TEST_F(InTheMembraneRoom, ClearancesAreBounds) {
+  const Body<3> body(room, rod({{2, 5, 4}, {2, 4, 4}, {3, 3, 4}}, {1, 0.25}));
+  const auto far = body.clearances(10);
+  EXPECT_NEAR(far[0], 2, 1e-12);
+  EXPECT_NEAR(far[1], 1, 1e-12);
+  EXPECT_EQ(body.clearances(0.5), (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(body.clearances(0), (std::vector<double>{0, 0}));
+  EXPECT_THROW(body.clearances(-1), Error);
+}
+
 TEST_F(InTheMembraneRoom, PointsHaveTheRadiusOfTheirBody) {
   Body_soup<3> points;
   points.points = {{2, 4, 4}, {6, 4, 4}};
@@ -216,7 +226,15 @@ void judge(const Thick_oracle<D>& oracle, const Body<D>& body) {
   for (std::size_t e = 0; e < body.edges().size(); ++e) {
     const auto [u, v] = body.edges()[e];
     const std::array<Point<D>, 2> edge{body.positions()[u], body.positions()[v]};
-    ASSERT_TRUE(root_is_at_least(oracle.square_to_walls(edge), body.radius(e))) << "edge " << e;
+    const auto square = oracle.square_to_walls(edge);
+    ASSERT_TRUE(root_is_at_least(square, body.radius(e))) << "edge " << e;
+    const double up_to = 2 * body.radius(e) + length(edge[1] - edge[0]);
+    const double bound = body.clearances(up_to)[e];
+    ASSERT_TRUE(root_is_at_least(square, bound)) << "edge " << e;
+    double size = 0;
+    for (const auto& wall : oracle.walls())
+      size = std::max(size, length(wall.high - edge[0]) + length(wall.low - edge[0]));
+    ASSERT_GE(bound, std::min(up_to, root_rounded_down(square)) - 0x1p-40 * size) << "edge " << e;
   }
 }
 

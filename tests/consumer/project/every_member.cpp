@@ -88,9 +88,9 @@ void keep_bodies() {
                                     Body_counts&)>(&Body<D>::step),
       static_cast<std::vector<Contact<D>> (Body<D>::*)(std::span<const Point<D>>)>(&Body<D>::step),
       &moved<Body<D>>, &Body<D>::register_again, &Body<D>::vertex_count, &Body<D>::positions, &Body<D>::edges,
-      &Body<D>::faces, &Body<D>::radius, &Body<D>::set_radii, &Body<D>::neighbours, &Body<D>::move_vertex,
-      &Body<D>::refresh, &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain, &Body<D>::cell_of,
-      &Body<D>::validate);
+      &Body<D>::faces, &Body<D>::radius, &Body<D>::set_radii, &Body<D>::clearances, &Body<D>::neighbours,
+      &Body<D>::move_vertex, &Body<D>::refresh, &Body<D>::leave_region, &Body<D>::particles, &Body<D>::chain,
+      &Body<D>::cell_of, &Body<D>::validate);
 
   keep(&save<D>, &restore_body<D>, &transformed<D>, &make_body<D>, &rope<D>, &catheter_body<D>,
        &polyline_body<D>);

@@ -42,6 +42,14 @@ template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts);
 
+/// A lower bound of the distance of an edge to all walls, or a larger one, if it is that far from them.
+/// \param start a free cell in whose closure p lies
+/// \param p,q the ends of the edge; a point has q = p
+/// \param up_to at least 0: walls farther away are not looked at
+/// Cost: that of a flood through the cells nearer than that, and 0.2 to 0.4 us for each wall found.
+template <int D>
+double clearance(const Snapshot<D>& snapshot, Cell start, const Point<D>& p, const Point<D>& q, double up_to);
+
 }  // namespace cellwalk::detail
 
 #endif  // CELLWALK_INTERNAL_EDGE_THICK_SWEEP_H
