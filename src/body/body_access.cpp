@@ -56,8 +56,8 @@ void Body_access<D>::leave_regions(Body_counts& counts) {
 }
 
 template <int D>
-bool Body_access<D>::has_radii() const {
-  return !state_->thick.are_none();
+bool Body_access<D>::has_radii(const Body<D>& body) {
+  return !body.state_->thick.are_none();
 }
 
 template <int D>

@@ -3,11 +3,10 @@
 // nested, and whose signs take ring operations only. A root in doubles is but where the search for the
 // greatest double below it starts.
 #include <cellwalk/internal/kernel/exact_root.h>
+#include <cellwalk/internal/kernel/greatest_double.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace cellwalk {
@@ -20,10 +19,6 @@ std::strong_ordering ordering(int sign) { return sign <=> 0; }
 Quadratic derivative(const Quadratic& p) { return {Ring(0), Ring(Ring(2) * p.square), p.linear}; }
 
 Ring discriminant(const Quadratic& p) { return Ring(p.linear * p.linear - Ring(4) * p.square * p.constant); }
-
-Quadratic product(const Ring& factor, const Quadratic& p) {
-  return {Ring(factor * p.square), Ring(factor * p.linear), Ring(factor * p.constant)};
-}
 
 /// The order of a number and a root.
 /// \param side see Exact_root
@@ -45,8 +40,8 @@ Quadratic scaled(Quadratic p) {
     return std::max({std::abs(CGAL::to_double(p.square)), std::abs(CGAL::to_double(p.linear)),
                      std::abs(CGAL::to_double(p.constant))});
   };
-  while (size() > largest) p = product(Ring(1 / factor), p);
-  while (size() < 1 / largest) p = product(Ring(factor), p);
+  while (size() > largest) p = Ring(1 / factor) * p;
+  while (size() < 1 / largest) p = Ring(factor) * p;
   return p;
 }
 
@@ -58,40 +53,6 @@ double in_doubles(const Quadratic& polynomial, int side) {
   const double b = CGAL::to_double(p.linear), sum = b + std::copysign(root, b);
   return std::signbit(b) == (side > 0) ? -sum / (2 * CGAL::to_double(p.square))
                                        : -2 * CGAL::to_double(p.constant) / sum;
-}
-
-/// Finite doubles numbered in their order; 0 is that of 0.
-std::int64_t number_of(double x) {
-  const auto bits = std::bit_cast<std::int64_t>(x);
-  return bits < 0 ? std::numeric_limits<std::int64_t>::min() - bits : bits;
-}
-double double_of(std::int64_t number) {
-  return std::bit_cast<double>(number < 0 ? std::numeric_limits<std::int64_t>::min() - number : number);
-}
-
-/// The greatest double that is not above a number with sign `sign`: in steps that double from a guess on, and
-/// by bisection once it is passed.
-/// \param order gives that of the number and a double
-template <class Order>
-Rounded greatest_not_above(int sign, double guess, Order order) {
-  const std::int64_t end = number_of(std::numeric_limits<double>::max()) + 1;
-  std::int64_t low = sign > 0 ? 0 : -end, high = sign > 0 ? end : 0;
-  std::int64_t next = std::clamp(number_of(guess), low + 1, high - 1), step = 1;
-  for (bool was_above = false, is_first = true; high - low > 1; is_first = false) {
-    const std::strong_ordering at_next = order(double_of(next));
-    if (at_next == 0) return {double_of(next), true};
-    const bool is_above = at_next > 0;
-    (is_above ? low : high) = next;
-    if ((is_first || is_above == was_above) && step < high - low) {
-      next = is_above ? low + step : high - step;
-      step *= 2;
-    } else {
-      next = low + (high - low) / 2;
-      step = std::numeric_limits<std::int64_t>::max();
-    }
-    was_above = is_above;
-  }
-  return {double_of(low), false};
 }
 
 }  // namespace
@@ -112,11 +73,11 @@ std::optional<Exact_root> Exact_root::of(const Quadratic& polynomial, Which whic
   if (sign_of_square == 0) {
     const int sign_of_linear = sign_of_ring(polynomial.linear);
     if (sign_of_linear == 0) return {};
-    return Exact_root(product(Ring(sign_of_linear), polynomial), 0);
+    return Exact_root(Ring(sign_of_linear) * polynomial, 0);
   }
   const int sign_of_discriminant = sign_of_ring(discriminant(polynomial));
   if (sign_of_discriminant < 0) return {};
-  Quadratic positive = product(Ring(sign_of_square), polynomial);
+  Quadratic positive = Ring(sign_of_square) * polynomial;
   if (sign_of_discriminant == 0) return Exact_root(derivative(positive), 0);
   return Exact_root(std::move(positive), which == Which::lower ? -1 : 1);
 }
@@ -161,10 +122,17 @@ std::strong_ordering operator<=>(const Exact_root& x, double y) {
 
 Rounded rounded_down(const Exact_root& root) {
   if (const auto fraction = root.as_fraction()) return rounded_down(*fraction);
-  const std::strong_ordering sign = root <=> 0.0;
-  if (sign == 0) return {0, true};
-  return greatest_not_above(sign > 0 ? 1 : -1, in_doubles(root.polynomial_, root.side_),
-                            [&root](double x) { return root <=> x; });
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto& [a, b, c] = root.polynomial_;
+  const bool is_negative = root < 0.0;
+  const Exact_root opposite({a, Ring(-b), c}, -root.side_);
+  const Exact_root& size = is_negative ? opposite : root;
+  const double below =
+      detail::greatest_double(in_doubles(size.polynomial_, size.side_), std::numeric_limits<double>::max(),
+                              [&size](double x) { return size >= x; });
+  const bool is_exact = size == below;
+  if (!is_negative) return {below, is_exact};
+  return {is_exact ? -below : std::nextafter(-below, -infinity), is_exact};
 }
 
 }  // namespace cellwalk

@@ -15,6 +15,7 @@
 
 #include "edge/relisted.h"
 #include "edge/thick_rooms.h"
+#include "query/refusal.h"
 #include "query/thick_cases.h"
 #include "query/thick_judge.h"
 
@@ -217,16 +218,6 @@ TEST(Radius, WrongAnswersAreFound) {
   Answer<3> free;
   free.status = Motion_status::free;
   EXPECT_NE(fault_of(free), "");
-}
-
-/// The code of the error that a call throws; none if it throws none.
-std::optional<Error_code> refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return {};
 }
 
 TEST(Radius, NumbersThatAreNone) {

@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "query/refusal.h"
+
 namespace cellwalk {
 namespace {
 
@@ -41,16 +43,6 @@ Point<D> all(double x) {
   Point<D> p;
   p.fill(x);
   return p;
-}
-
-/// The code of the error that a call throws; none if it throws none.
-std::optional<Error_code> refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return {};
 }
 
 /// Every function that takes points, each by its number: calls it with x for one of them.
@@ -132,12 +124,12 @@ void expect_points_are_refused() {
   const Point_calls<D> calls{environment.snapshot(), locator};
   int refused = 0;
   for (int number = 0; number < calls.count; ++number) {
-    EXPECT_FALSE(refusal_of([&] { calls.call(number, all<D>(0.75)); })) << number;
+    EXPECT_FALSE(test::refusal_of([&] { calls.call(number, all<D>(0.75)); })) << number;
     for (const double bad : not_finite_numbers)
       for (std::size_t k = 0; k < D; ++k) {
         Point<D> x = all<D>(0.75);
         x[k] = bad;
-        const auto code = refusal_of([&] { calls.call(number, x); });
+        const auto code = test::refusal_of([&] { calls.call(number, x); });
         EXPECT_EQ(code, Error_code::input) << number << ", " << bad << " as coordinate " << k;
         refused += code.has_value();
       }
@@ -181,7 +173,7 @@ void expect_particles_are_refused() {
         [&](const Point<D>&) { find_chain(snapshot, bad, good, counts.walk); }};
     for (const double target : {1.5, 1.625, 2.5, 9.0})
       for (const auto& call : calls) {
-        const auto code = refusal_of([&] { call(all<D>(target)); });
+        const auto code = test::refusal_of([&] { call(all<D>(target)); });
         EXPECT_EQ(code, Error_code::usage)
             << to_index(cell) << " to " << target << ", call " << &call - calls.data();
         refused += code.has_value();
@@ -207,13 +199,14 @@ TEST(RefusedQueries, TolerancesAndLengthsThatAreNone) {
       Search_options search{method, bad};
       const Sweep_options options{.search = &search};
       Edge_counts counts;
-      EXPECT_EQ(refusal_of([&] { answer_sweep(snapshot, locator, through_a_wall, options, counts); }),
+      EXPECT_EQ(test::refusal_of([&] { answer_sweep(snapshot, locator, through_a_wall, options, counts); }),
                 Error_code::usage);
       search.method = Contact_search::exhaustive;
-      EXPECT_FALSE(refusal_of([&] { answer_sweep(snapshot, locator, through_a_wall, options, counts); }));
+      EXPECT_FALSE(
+          test::refusal_of([&] { answer_sweep(snapshot, locator, through_a_wall, options, counts); }));
     }
   for (const double bad : {not_a_number, -not_a_number, -1.0, unbounded, -unbounded})
-    EXPECT_EQ(refusal_of([&] { count_edge_cells(snapshot, {.length = bad}); }), Error_code::usage);
+    EXPECT_EQ(test::refusal_of([&] { count_edge_cells(snapshot, {.length = bad}); }), Error_code::usage);
 }
 
 }  // namespace

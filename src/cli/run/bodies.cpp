@@ -2,6 +2,7 @@
 // The loading of bodies, and their counts of moves, edges and contacts in words and as JSON.
 #include "bodies.h"
 
+#include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/generators/body_of_shape.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/kernel/error.h>
@@ -63,8 +64,7 @@ Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene) {
     sizes.vertices += moving.body().vertex_count();
     sizes.edges += moving.body().edges().size();
     sizes.faces += moving.body().faces().size();
-    for (std::size_t e = 0; e < moving.body().edges().size(); ++e)
-      sizes.thick_edges += moving.body().radius(e) > 0;
+    sizes.have_radii |= detail::Body_access<D>::has_radii(moving.body());
     const std::optional<std::size_t> entry = world.entry_of(i);
     if (!entry) continue;
     sizes.guided += scene.bodies[*entry].guided.has_value();

@@ -31,7 +31,7 @@ Scene_bodies<D> load_bodies(const Scene<D>& scene, const std::string& scene_name
 /// The numbers of bodies and of their parts, the catheter included.
 struct Body_sizes {
   std::size_t bodies = 0, vertices = 0, edges = 0, faces = 0, guided = 0, arrived = 0;
-  std::size_t thick_edges = 0;  ///< with a radius
+  bool have_radii = false;
 };
 template <int D>
 Body_sizes sizes_of(const World<D>& world, const Scene<D>& scene);

@@ -103,11 +103,9 @@ std::string summary(const Run_input<D>& input, const Run_parts<D>& parts, const 
   if (parts.changes) line("changes", parts.changes->describe());
   line("validated",
        sizes.bodies > 0
-           ? sizes.thick_edges > 0
-                 ? "every particle and vertex lies in its cell, no edge crosses a wall or is nearer to one "
-                   "than "
-                   "its radius, by exact predicates"
-                 : "every particle and vertex lies in its cell, no edge crosses a wall, by exact predicates"
+           ? fmt::format(
+                 "every particle and vertex lies in its cell, no edge crosses a wall{}, by exact predicates",
+                 sizes.have_radii ? " or is nearer to one than its radius" : "")
            : "every particle lies in its cell, by exact predicates");
   std::string written = "run.json, contacts.csv";
   if (parts.walls) written += input.scene.walls->soft ? ", walls.csv, forces.csv" : ", walls.csv";

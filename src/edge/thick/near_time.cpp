@@ -5,7 +5,7 @@
 
 #include <cellwalk/internal/kernel/uncertified.h>
 
-#include <boost/container/static_vector.hpp>
+#include <boost/container/small_vector.hpp>
 
 #include <array>
 #include <tuple>

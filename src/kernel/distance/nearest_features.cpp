@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The nearest points of two hulls in doubles: of each edge and edge, and of each vertex and facet.
 #include <boost/container/small_vector.hpp>
-#include <boost/container/static_vector.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -38,7 +38,7 @@ Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents
     if (&group.body->snapshot() != &snapshot)
       throw Error(Error_code::usage, "a body listed lies in another environment: list it where it is");
     group.body->check_epoch();
-    if (group.body->has_radii())
+    if (Body_access<D>::has_radii(*body))
       throw Error(Error_code::usage,
                   "a body listed has a radius: walls cannot move or change among those yet");
     group.edges = body->edges();

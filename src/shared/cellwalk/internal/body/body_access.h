@@ -39,7 +39,7 @@ class Body_access {
   /// Registers stale vertices and edges, and gives regions free of walls up.
   void leave_regions(Body_counts& counts);
   /// True if an edge or a vertex has a radius.
-  bool has_radii() const;
+  static bool has_radii(const Body<D>& body);
   /// True if no wall pierces a face, and that is to stay so.
   bool keeps_faces() const;
 
