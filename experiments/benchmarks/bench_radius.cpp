@@ -84,10 +84,9 @@ void by_flood(benchmark::State& state) {
 void by_list(benchmark::State& state) {
   const auto& all = edges(radius_of(state));
   std::vector<detail::Near_wall_list<3>> lists(all.size());
-  Edge_counts counts;
   const auto move = [&](std::size_t i) {
     return lists[i].is_free(vessel().snapshot(), all[i].p.cell,
-                            {all[i].p.position, all[i].target, all[i].q.position, radius_of(state)}, counts);
+                            {all[i].p.position, all[i].target, all[i].q.position, radius_of(state)});
   };
   for (std::size_t i = 0; i < all.size(); ++i) move(i);  // makes the list
   for (auto _ : state)
@@ -98,19 +97,38 @@ void by_list(benchmark::State& state) {
 /// A list, made and used once.
 void list_made(benchmark::State& state) {
   const auto& all = edges(radius_of(state));
-  Edge_counts counts;
   for (auto _ : state)
     for (const Edge& e : all) {
       detail::Near_wall_list<3> list;
-      benchmark::DoNotOptimize(list.is_free(
-          vessel().snapshot(), e.p.cell, {e.p.position, e.target, e.q.position, radius_of(state)}, counts));
+      benchmark::DoNotOptimize(list.is_free(vessel().snapshot(), e.p.cell,
+                                            {e.p.position, e.target, e.q.position, radius_of(state)}));
     }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+
+/// Moves ten times as long, of which those that a wall blocks count.
+void contact(benchmark::State& state) {
+  std::vector<detail::Thick_motion<3>> blocked;
+  std::vector<Cell> cells;
+  Edge_counts counts;
+  for (const Edge& e : edges(radius_of(state))) {
+    const detail::Thick_motion<3> motion{e.p.position, e.p.position + 10.0 * (e.target - e.p.position),
+                                         e.q.position, radius_of(state)};
+    if (!detail::sweep_thick<3>(vessel().snapshot(), e.p.cell, motion, counts).contact) continue;
+    blocked.push_back(motion);
+    cells.push_back(e.p.cell);
+  }
+  for (auto _ : state)
+    for (std::size_t i = 0; i < blocked.size(); ++i)
+      benchmark::DoNotOptimize(
+          detail::sweep_thick<3>(vessel().snapshot(), cells[i], blocked[i], counts).contact);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(blocked.size()));
 }
 
 BENCHMARK(without_radius)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(by_flood)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(by_list)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(list_made)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK(contact)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -67,7 +67,8 @@ template <int D>
 [[gnu::noinline]] void step_out_of_region(detail::Body_state<D>& body, std::span<const Point<D>> targets,
                                           const Body_options& options, Step_report<D>& report,
                                           Body_counts& counts) {
-  if (!body.thick.are_none()) detail::check_thick_step(options);  // such a body has no region
+  if (!body.thick.are_none())
+    detail::check_thick_step(options.sweep, options.rule);  // such a body has no region
   check_targets<D>(targets);
   if (options.sweep.search) [[unlikely]]
     detail::check_search(*options.sweep.search);
@@ -244,11 +245,7 @@ std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point
   if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   detail::check_finite(target, "the target of a vertex");
   if (options.sweep.search) detail::check_search(*options.sweep.search);
-  if (!state_->thick.are_none()) {
-    Body_options of_sweep = options;
-    of_sweep.rule = Step_rule::reject;
-    detail::check_thick_step(of_sweep);
-  }
+  if (!state_->thick.are_none()) detail::check_thick_step(options.sweep, Step_rule::reject);
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }

@@ -8,27 +8,14 @@
 #include <cellwalk/walk/walk.h>
 
 namespace cellwalk {
-namespace {
-
-void check(double radius, const Sweep_options& options) {
-  if (!(radius >= 0 && std::isfinite(radius)))
-    throw Error(Error_code::input, "a radius takes a finite number of at least 0");
-  if (options.touch == Touch::stop)
-    throw Error(Error_code::usage, "touch stop: not for motions with a radius, which touch no wall");
-  if (options.sweep == Sweep::three_segments)
-    throw Error(Error_code::usage, "sweep three_segments: not for edges with a radius; take triangle");
-  if (options.search)
-    throw Error(Error_code::usage,
-                "the searches of the paper: not for edges with a radius, whose times are exact");
-}
-
-}  // namespace
 
 template <int D>
 Answer<D> answer_thick(const Snapshot<D>& snapshot, const Locator<D>& locator,
                        const detail::Thick_motion<D>& motion, const Sweep_options& options,
                        Edge_counts& counts) {
-  check(motion.radius, options);
+  if (!(motion.radius >= 0 && std::isfinite(motion.radius)))
+    throw Error(Error_code::input, "a radius takes a finite number of at least 0");
+  detail::check_thick_sweep(options);
   detail::check_finite(motion.target, "the target of a motion");
   if (motion.q) detail::check_finite(*motion.q, "the still end of an edge");
   const std::optional<Particle<D>> start = locator.particle_at(motion.p);

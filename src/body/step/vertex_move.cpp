@@ -119,7 +119,7 @@ template <int D>
 std::optional<Contact<D>> contact_of_thick(Body_state<D>& body, Move_scratch<D>& scratch,
                                            std::uint32_t vertex, const Point<D>& target,
                                            const Sweep_options& options, Body_counts& counts, bool any) {
-  if (body.thick.is_free(body, vertex, target, counts.edges)) return {};
+  if (body.thick.is_free(body, vertex, target)) return {};
   if (any) return Contact<D>{};
   auto first = body.thick.first_contact(body, vertex, target, counts.edges);
   if (!first) refuse_uncertified();

@@ -63,18 +63,17 @@ bool Thick_edges<D>::has_thin(const Body_topology& topology, std::uint32_t verte
 }
 
 template <int D>
-bool Thick_edges<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
-                             Edge_counts& counts) {
+bool Thick_edges<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target) {
   const Point<D>& p = body.positions[vertex];
   const Cell start = body.particles[vertex].cell;
   const auto corners = body.topology.corners_of(vertex);
   if (corners.empty())
     return of_vertices_ == 0 ||
-           near_vertices_[vertex].is_free(*body.snapshot, start, {p, target, p, of_vertices_}, counts);
+           near_vertices_[vertex].is_free(*body.snapshot, start, {p, target, p, of_vertices_});
   return std::ranges::all_of(corners, [&](const Corner& corner) {
     const double r = radii_[corner.edge];
     return r == 0 || near_edges_[corner.edge].is_free(*body.snapshot, start,
-                                                      {p, target, body.positions[corner.other], r}, counts);
+                                                      {p, target, body.positions[corner.other], r});
   });
 }
 
@@ -127,17 +126,13 @@ void check_distances(const Body_state<D>& body, const Thick_edges<D>& thick, Err
 template void check_distances(const Body_state<2>&, const Thick_edges<2>&, Error_code);
 template void check_distances(const Body_state<3>&, const Thick_edges<3>&, Error_code);
 
-void check_thick_step(const Body_options& options) {
-  const auto refuse = [](const char* what) { throw Error(Error_code::usage, what); };
-  if (options.rule == Step_rule::reject_at_target)
-    refuse("the rule reject_at_target: not for bodies with a radius; take slide or reject");
-  if (options.sweep.sweep == Sweep::three_segments)
-    refuse("sweep three_segments: not for edges with a radius; take triangle");
-  if (options.sweep.sweep == Sweep::faces) refuse("sweep faces: not for bodies with a radius; take triangle");
-  if (options.sweep.touch == Touch::stop)
-    refuse("touch stop: not for motions with a radius, which touch no wall");
-  if (options.sweep.search)
-    refuse("the searches of the paper: not for edges with a radius, whose times are exact");
+void check_thick_step(const Sweep_options& sweep, Step_rule rule) {
+  if (rule == Step_rule::reject_at_target)
+    throw Error(Error_code::usage,
+                "the rule reject_at_target: not for bodies with a radius; take slide or reject");
+  if (sweep.sweep == Sweep::faces)
+    throw Error(Error_code::usage, "sweep faces: not for bodies with a radius; take triangle");
+  check_thick_sweep(sweep);
 }
 
 }  // namespace cellwalk::detail

@@ -38,7 +38,7 @@ class Thick_edges {
 
   /// Whether a vertex can move to a target, with all its edges that have a radius.
   /// \pre nothing is stale; where they are, they are at least at that distance from every wall
-  bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, Edge_counts& counts);
+  bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target);
   /// Their first contact; none if the vertex can move.
   std::optional<Contact<D>> first_contact(const Body_state<D>& body, std::uint32_t vertex,
                                           const Point<D>& target, Edge_counts& counts) const;
@@ -61,7 +61,7 @@ void check_distances(const Body_state<D>& body, const Thick_edges<D>& thick, Err
 
 /// Refuses what bodies with a radius cannot do.
 /// \throw Error(usage)
-void check_thick_step(const Body_options& options);
+void check_thick_step(const Sweep_options& sweep, Step_rule rule);
 
 }  // namespace cellwalk::detail
 

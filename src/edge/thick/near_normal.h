@@ -14,7 +14,7 @@ struct Near_place {
 };
 
 /// \param time that of `near`, rounded
-/// Cost: some 0.5 us; ring numbers where the radius is less than 2^-12 of the differences of coordinates.
+/// Cost: ring numbers where the radius is less than 2^-12 of the differences of coordinates.
 template <int D>
 Near_place<D> find_near_place(const Thick_motion<D>& motion, std::span<const Point<D>> wall,
                               const Near_time& near, double time);

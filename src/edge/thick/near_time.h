@@ -26,7 +26,7 @@ bool is_before(const Near_time& x, const Near_time& y);
 /// \param wall the corners of a wall, in order; of a facet the first three are not collinear
 /// \pre where the motion starts, it is at least as far from the wall as its radius; the hull of the motion is
 ///        nearer
-/// Cost: ring numbers for each feature of the wall, some 30 us.
+/// Cost: ring numbers for each feature of the wall.
 template <int D>
 Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall);
 

@@ -30,16 +30,19 @@ bool Near_wall_list<D>::reaches(const Point<D>& x, const Point<D>& from) const {
 }
 
 template <int D>
-bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
-                                Edge_counts& counts) {
+bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion) {
   const Point<D>& q = *motion.q;
   const auto is_at = [&](const Point<D>& p, const Point<D>& still) {
     return reaches(motion.p, p) && reaches(motion.target, p) && reaches(q, still);
   };
   // Either end of the edge may be the one that moves.
   if (epoch_ != snapshot.epoch() || !(is_at(p_, q_) || is_at(q_, p_))) {
-    make(snapshot, start, motion, counts);
-    if (!is_at(p_, q_)) return !sweep_thick(snapshot, start, motion, counts).contact;
+    make(snapshot, start, motion);
+    if (!is_at(p_, q_)) {
+      square_of_reach_ = -1;  // the edge may leave it untested
+      Edge_counts uncounted;
+      return !sweep_thick(snapshot, start, motion, uncounted).contact;
+    }
   }
   const std::array<Point<D>, 3> hull{motion.p, motion.target, q};
   Box<D> box;
@@ -60,11 +63,12 @@ bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const T
 }
 
 template <int D>
-void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
-                             Edge_counts& counts) {
+void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion) {
   // A longer list is made less often: its reach is right where the tests of walls cost about what it cost.
+  // Beyond the size of the edge, the flood would grow faster than what it saves.
   const double way = length(motion.target - motion.p);
   reach_ = reach_ == 0 ? first_reach * way : tests_ < facets_ ? 2 * reach_ : reach_ / 2;
+  reach_ = std::min(reach_, std::max(first_reach * way, length(*motion.q - motion.p) + motion.radius));
   reach_ = std::max(reach_, (1 + 0x1p-40) * way);
   const bool is_in_range = reach_ > least_reach && reach_ < largest_reach;
   square_of_reach_ = is_in_range ? reach_ * reach_ * (1 - 0x1p-48) : -1;
@@ -78,9 +82,7 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thic
   const std::array<Point<D>, 2> edge{p_, q_};
   const double near = above(motion.radius + reach_);
   Cell_list cells;
-  ++counts.floods;
   Near_walls<D>(snapshot, edge, near).visit(start, cells, [&](Half_facet half) {
-    ++counts.search_walls;
     const Cell_view<D> view = snapshot.view(snapshot.cell_of(half));
     Wall wall{static_cast<std::uint32_t>(corners_.size()), 0, {}, {}};
     for (const std::uint16_t v : view.loop(snapshot.facet_of(half))) {
@@ -95,7 +97,6 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thic
     else
       walls_.push_back(wall);
   });
-  counts.flooded_cells += cells.size();
   for (std::size_t i = 0; i < cells.size(); ++i) facets_ += snapshot.facet_count(cells[i]);
 }
 

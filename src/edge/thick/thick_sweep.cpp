@@ -3,6 +3,11 @@
 #include <cellwalk/internal/edge/thick_sweep.h>
 #include <cellwalk/internal/kernel/distance.h>
 #include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "near_normal.h"
 #include "near_time.h"
@@ -66,6 +71,7 @@ class Thick_sweep {
  private:
   void look_at(Half_facet wall) {
     const Points<D> corners = corners_of(snapshot_, wall);
+    if (close_ && distance_bound<D>(in<D>(before_), in<D>(corners)) > close_->distance) return;
     if (is_far(swept_, corners)) return;
     if (!is_far(before_, corners))
       keep_nearest(wall, corners);
@@ -106,7 +112,25 @@ class Thick_sweep {
     return {{{{0, 1, 0}, 2}, {{0, 1, 2}, 3}}, x, x};
   }
 
+  /// True proves that a wall is no reason to stop before the contact that is known, nor at it: what is swept
+  /// until the next double after its time keeps the distance. The end of that is off by rounding, and the
+  /// distance by no more.
+  bool is_later(const Points<D>& corners) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double most = 0x1p1000;  // of coordinates whose differences are finite
+    Points<D> swept = before_;
+    swept.push_back(point_on<D>(motion_.p, motion_.target, std::nextafter(first_->time, infinity)));
+    double largest = 0;
+    for (std::size_t k = 0; k < D; ++k)
+      largest = std::max({largest, std::abs(motion_.p[k]), std::abs(motion_.target[k])});
+    const double r = std::nextafter(motion_.radius + 0x1p-48 * largest, infinity);
+    Feature_pair near;
+    return largest < most && std::isfinite(r) &&
+           is_apart<D>(in<D>(swept), in<D>(corners), r, near, distance_counts_);
+  }
+
   void keep_first(Half_facet wall, const Points<D>& corners) {
+    if (first_ && is_later(corners)) return;
     const Near_time near = find_near_time<D>(motion_, in<D>(corners));
     Contact<D> contact;
     contact.set_time(to_time(near.root));
@@ -134,6 +158,14 @@ template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts) {
   return Thick_sweep<D>(snapshot, start, motion).run(counts);
+}
+
+void check_thick_sweep(const Sweep_options& options) {
+  const auto refuse = [](const char* reason) { throw Error(Error_code::usage, reason); };
+  if (options.touch == Touch::stop) refuse("touch stop: not for motions with a radius, which touch no wall");
+  if (options.sweep == Sweep::three_segments)
+    refuse("sweep three_segments: not for edges with a radius; take triangle");
+  if (options.search) refuse("the searches of the paper: not for edges with a radius, whose times are exact");
 }
 
 template <int D>

@@ -151,8 +151,9 @@ template <int D>
 double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<D>> b) {
   Feature_pair near;
   Distance_counts counts;
-  return greatest_double(nearest_features<D>(a, b).distance, std::numeric_limits<double>::max(),
-                         [&](double r) { return is_apart<D>(a, b, r, near, counts); });
+  const auto holds = [&](double r) { return is_apart<D>(a, b, r, near, counts); };
+  if (!holds(std::numeric_limits<double>::denorm_min())) return 0;  // hulls that meet
+  return greatest_double(nearest_features<D>(a, b).distance, std::numeric_limits<double>::max(), holds);
 }
 
 template double distance_rounded_down<2>(std::span<const Point<2>>, std::span<const Point<2>>);

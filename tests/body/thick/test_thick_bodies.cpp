@@ -149,6 +149,50 @@ TEST_F(InTheMembraneRoom, PointsHaveTheRadiusOfTheirBody) {
   EXPECT_EQ(body.positions()[1], (Point<3>{4.5, 4, 4}));
 }
 
+/// Walls that appear beside a body are found by its next registration, and lists of walls before are void.
+TEST(ThickBodies, EditsBetweenStepsCount) {
+  Environment<3> room = room_of(stretched<3>(oracle::make_cubes(4, 4, 4), {2, 2, 2}));
+  const Snapshot<3>& snapshot = room.snapshot();
+  Body<3> body(room, rod({{3, 3, 3}, {3, 3, 4}}, {0.5}));
+  const auto move_by = [&](double x) {
+    std::vector<Point<3>> targets(body.positions().begin(), body.positions().end());
+    for (Point<3>& p : targets) p[0] += x;
+    return body.step(targets).size();
+  };
+  EXPECT_EQ(move_by(0.25), 0u);
+  EXPECT_EQ(move_by(-0.25), 0u);
+  // The facets x = 4 of both cells that the rod lies in, or on the border of.
+  std::vector<Half_facet> facets;
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
+    const Cell_view<3> view = snapshot.view(snapshot.cell(i));
+    for (std::size_t f = 0; f < view.facet_count(); ++f) {
+      const auto is_at = [&](const Point<3>& p) {
+        return p[0] == 4 && p[1] >= 2 && p[1] <= 4 && p[2] >= 2 && p[2] <= 6;
+      };
+      if (std::ranges::all_of(view.loop(f), [&](std::uint16_t v) { return is_at(view.point(v)); }))
+        facets.push_back(Snapshot<3>::half_facet(snapshot.cell(i), f));
+    }
+  }
+  ASSERT_EQ(facets.size(), 4u);
+  for (const Half_facet f : facets) room.set_impassable(f, true);
+  EXPECT_THROW(move_by(0.25), Error);  // not registered again
+  body.register_again(Locator<3>(snapshot));
+  EXPECT_EQ(move_by(0.25), 0u);
+  EXPECT_GT(move_by(1), 0u);
+  EXPECT_NO_THROW(body.validate());
+  EXPECT_LE(body.positions()[0][0], 3.5);
+  EXPECT_GT(body.positions()[0][0], 3.5 - 1e-9);
+
+  for (const Half_facet f : facets) room.set_impassable(f, false);
+  body.register_again(Locator<3>(snapshot));
+  EXPECT_EQ(move_by(0.25), 0u);
+  for (const Half_facet f : facets) room.set_impassable(f, true);
+  EXPECT_NE(refusal([&] { body.register_again(Locator<3>(snapshot)); }).find("less than its radius 0.5"),
+            std::string::npos);
+  for (const Half_facet f : facets) room.set_impassable(f, false);
+  EXPECT_NO_THROW(body.register_again(Locator<3>(snapshot)));
+}
+
 TEST_F(InTheMembraneRoom, SavedBodiesKeepTheirRadii) {
   Body<3> body(room, rod({{2, 5, 4}, {2, 4, 4}, {2, 3, 4}}, {1, 0.25}));
   const std::array<Point<3>, 3> targets{{{2, 5, 4}, {6, 4, 4}, {7, 3, 4}}};

@@ -14,7 +14,8 @@
 
 namespace cellwalk::detail {
 
-/// All moves of the edge must be tested by the list, or it must be forgotten.
+/// All moves of the edge must be tested by the list, or it must be forgotten. Nothing is counted: lists are
+/// not saved with a body, whose counts would depend on that.
 template <int D>
 class Near_wall_list {
  public:
@@ -23,9 +24,9 @@ class Near_wall_list {
   /// \param motion of an edge; one of a point has q = p
   /// \pre where the motion starts, it is at least at the distance of its radius from every wall; the radius
   ///        is that of all motions before
-  /// Cost: 15 to 40 ns for each wall far away, 200 to 400 ns for one near; a flood of the cells nearer than
-  /// the radius and the reach where the list ends.
-  bool is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, Edge_counts& counts);
+  /// Cost: a comparison of boxes for each wall listed, is_apart() for those near; a flood of the cells nearer
+  /// than the radius and the reach where the list ends.
+  bool is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion);
 
  private:
   struct Wall {
@@ -35,7 +36,7 @@ class Near_wall_list {
   };
 
   bool reaches(const Point<D>& x, const Point<D>& from) const;
-  void make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, Edge_counts& counts);
+  void make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion);
 
   std::vector<Wall> walls_;
   std::vector<Point<D>> corners_;

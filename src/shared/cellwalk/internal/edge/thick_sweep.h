@@ -4,6 +4,7 @@
 #define CELLWALK_INTERNAL_EDGE_THICK_SWEEP_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/edge/sweep.h>
 #include <cellwalk/walk/contact.h>
 
 #include <optional>
@@ -36,17 +37,20 @@ struct Thick_result {
 /// Degenerate cases: q may be p, the target may be p, p may pass q, and all may be collinear. A start at the
 /// distance r is free. Contact::point is the nearest point of the wall, Contact::normal the direction from
 /// there to the vertex or edge; Contact::cell is the start.
-/// Cost: that of a flood through the cells nearer than r, 20 to 60 ns a facet; 20 to 400 ns for each wall
-/// found, 2 us for one at the distance r, and some 40 us for a contact.
+/// Cost: that of a flood through the cells nearer than r, about 30 ns a facet; is_apart() for each wall
+/// found; 0.1 to 0.3 ms where walls are in the way.
 template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts);
+
+/// \throw Error(usage) for what edges with a radius cannot do
+void check_thick_sweep(const Sweep_options& options);
 
 /// A lower bound of the distance of an edge to all walls, or a larger one, if it is that far from them.
 /// \param start a free cell in whose closure p lies
 /// \param p,q the ends of the edge; a point has q = p
 /// \param up_to at least 0: walls farther away are not looked at
-/// Cost: that of a flood through the cells nearer than that, and 0.2 to 0.4 us for each wall found.
+/// Cost: that of a flood through the cells nearer than that, and 0.3 to 0.7 us for each wall found.
 template <int D>
 double clearance(const Snapshot<D>& snapshot, Cell start, const Point<D>& p, const Point<D>& q, double up_to);
 

@@ -54,8 +54,8 @@ struct Feature_pair {
 ///        is tried first. Takes the pair by whose direction the hulls are apart, for the next test
 /// \param counts raised by the test
 /// \pre all coordinates are finite
-/// Cost: 15 ns where boxes decide, 25 ns by a direction known, 200 to 400 ns near r; 2 us within some ulp of
-/// r, where ring numbers decide; 50 us where none of the nearest features is the one that doubles found.
+/// Cost: 30 to 40 ns where boxes or a known direction decide, 0.3 to 0.7 us near r, 3 to 6 us within some ulp
+/// of r, where ring numbers decide; more where the nearest features are others than those that doubles found.
 template <int D>
 bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Feature_pair& near,
               Distance_counts& counts);
@@ -64,7 +64,7 @@ bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r
 /// `from` to that time's point of the motion to `target`, which need not be a double.
 /// \param still at most two points
 /// \param time in [0,1]
-/// Cost: ring numbers, some 10 us.
+/// Cost: ring numbers.
 template <int D>
 bool is_apart_until(const Point<D>& from, const Point<D>& target, std::span<const Point<D>> still,
                     double time, std::span<const Point<D>> b, double r);
@@ -74,7 +74,7 @@ bool is_apart_until(const Point<D>& from, const Point<D>& target, std::span<cons
 /// \param still none, or one point that is not in the place of the motion then
 /// \param b one or two points
 /// \pre the features do not meet; if both are edges, they are not parallel
-/// Cost: ring numbers, some 5 us. Exact but for the rounding of the result.
+/// Cost: ring numbers. Exact but for the rounding of the result.
 template <int D>
 Vector<D> common_normal(const Point<D>& from, const Point<D>& target, double time,
                         std::span<const Point<D>> still, std::span<const Point<D>> b);
@@ -93,7 +93,7 @@ Nearest<D> nearest_in_doubles(std::span<const Point<D>> a, std::span<const Point
 
 /// A lower bound of the distance of two hulls, at least 0, in doubles: below it by some 2^-46 of the largest
 /// difference of coordinates, but where rounding leads to other features than the nearest.
-/// Cost: 0.2 to 0.4 us.
+/// Cost: that of is_apart() near r.
 template <int D>
 double distance_bound(std::span<const Point<D>> a, std::span<const Point<D>> b);
 
