@@ -23,11 +23,11 @@ using test::repair;
 using test::Repaired;
 using test::turned_by_angles;
 
-/// A tube along z with a thick wall, open at both ends, with an inner radius of 1 and an outer one of 1.2.
-Surface_soup thick_tube(double length, int sides) {
+/// A tube along z with a thick wall, open at both ends.
+Surface_soup thick_tube(double length, int sides, double inner = 1, double outer = 1.2) {
   Surface_soup s;
   for (const double z : {0.0, length})
-    for (const double r : {1.0, 1.2})
+    for (const double r : {inner, outer})
       for (int i = 0; i < sides; ++i) {
         const double a = 2 * std::numbers::pi * i / sides;
         s.points.push_back({r * std::cos(a), r * std::sin(a), z});
@@ -256,6 +256,75 @@ TEST(Repair, ThickWallHasALumen) {
   EXPECT_NEAR(repair(tube, options).certificate.free_volume, 12 * 0.44 * base, 1e-9);
   options.inside = {{3, 0, 6}};
   EXPECT_NE(refusal([&] { repair(tube, options); }).find("narrower than the box"), std::string::npos);
+}
+
+/// Walls of four layers that touch, exactly or but for rounding: from either side of a layer, a ray meets the
+/// next one at once.
+TEST(Repair, ThickWallOfLayers) {
+  const int sides = 24;
+  const double base = sides * std::sin(2 * std::numbers::pi / sides) / 2;
+  for (const double rounding : {0.0, 2e-16, -2e-16}) {
+    SCOPED_TRACE(rounding);
+    Surface_soup tube;
+    double inner = 1;
+    for (const double outer : {1.1, 1.2, 1.3, 1.4}) {
+      tube = join(tube, thick_tube(12, sides, inner, outer));
+      inner = outer + rounding;
+    }
+    const Repaired lumen = repair(tube);
+    EXPECT_NE(lumen.step("lumen").find("thick wall"), std::string::npos);
+    EXPECT_NEAR(lumen.certificate.free_volume, 12 * base, 1e-9);
+  }
+}
+
+/// A part on a wall, but for rounding, is a part or a hollow as the directions of its facets say.
+TEST(Repair, PartsThatNearlyTouch) {
+  for (const double gap : {1e-12, 1e-14}) {
+    SCOPED_TRACE(gap);
+    const Surface_soup inner = box({1, 1, gap}, {3, 3, 2});
+    EXPECT_NEAR(repair(join(cube({0, 0, 0}, 4), inner)).certificate.free_volume, 64, 1e-9);
+    EXPECT_NEAR(repair(join(cube({0, 0, 0}, 4), test::turned(inner))).certificate.free_volume, 56, 1e-9);
+  }
+  // Farther from it, it is a hollow.
+  EXPECT_NEAR(repair(join(cube({0, 0, 0}, 4), box({1, 1, 1e-9}, {3, 3, 2}))).certificate.free_volume, 56,
+              1e-6);
+}
+
+/// A prism that crosses itself: one of its halves has its facets inside out, whichever way all are turned.
+TEST(Repair, InsideOut) {
+  Surface_soup bow;
+  for (const double z : {0.0, 2.0})
+    for (const Point<2>& p : {Point<2>{0, 0}, {6, 3}, {6, 0}, {0, 1}}) bow.points.push_back({p[0], p[1], z});
+  for (std::uint32_t i = 0; i < 4; ++i) bow.facets.push_back({i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i});
+  for (const auto& facet : {std::vector<std::uint32_t>{4, 5, 6}, {4, 6, 7}, {2, 1, 0}, {3, 2, 0}})
+    bow.facets.push_back(facet);
+  const Repaired r = repair(bow);
+  EXPECT_NEAR(r.certificate.free_volume, 13.5, 1e-9);
+  EXPECT_NE(r.step("inside_out").find("a volume of 1.5 is not free"), std::string::npos)
+      << r.step("inside_out");
+}
+
+/// Volumes that are smaller than the rounding of their facets.
+TEST(Repair, ThinSlabs) {
+  for (const double thick : {1e-9, 1e-12}) {
+    const Repaired r = repair(turned_by_angles(box({0, 0, 0}, {1, 1, thick})));
+    EXPECT_NEAR(r.certificate.free_volume, thick, 1e-4 * thick);
+  }
+}
+
+/// Facets in one plane are cut together: turned, where rounding parts their planes, few more pieces are made.
+TEST(Repair, FacetsInAPlane) {
+  Surface_soup star;
+  for (int k = 0; k < 5; ++k) {
+    Surface_soup part = cube({-1, -1, 0}, 2);
+    for (Point<3>& p : part.points)
+      p = {std::cos(0.31 * k) * p[0] - std::sin(0.31 * k) * p[1],
+           std::sin(0.31 * k) * p[0] + std::cos(0.31 * k) * p[1], p[2]};
+    star = join(star, part);
+  }
+  const Repaired r = repair(star), turned = repair(turned_by_angles(star, 0.3));
+  EXPECT_NEAR(turned.certificate.free_volume, r.certificate.free_volume, 1e-9);
+  EXPECT_LT(turned.certificate.walls, 1.5 * static_cast<double>(r.certificate.walls));
 }
 
 TEST(Repair, NothingEnclosed) {

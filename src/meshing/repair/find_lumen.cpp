@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "cavity.h"
 #include "meshing/fill/scale.h"
@@ -29,6 +28,8 @@ constexpr double enough = 0.25, farther = 3;
 /// Around a lumen, this part of the rays from its middle meets the wall. Measured: 0.86 to 1 for thick tubes,
 /// 0.3 to 0.82 for channels that bend back and for plates that face each other.
 constexpr double closed = 0.85;
+/// Where two solids touch, there is no wall: from either side a ray meets the other one at once.
+constexpr double touching = 1e-11;  // of the largest coordinate
 
 double distance_along(const Tree& tree, const K::Ray_3& ray, const K::Triangle_3* own) {
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -58,12 +59,8 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
   std::vector<double> areas;
   double total = 0;
   std::vector<Vector<3>> normals;
-  // Where two solids touch, there is no wall: from either side a ray meets the other one at once.
-  std::map<Triangle, int> sides;
-  const auto side_of = [](const Facet& f) { return runs_upwards(f.corners) ? 1 : 2; };
-  for (const Facet& f : oriented.facets) sides[sorted(f.corners)] |= side_of(f);
   for (const Facet& f : oriented.facets) {
-    if (f.part == Part::sheet || sides[sorted(f.corners)] == 3) continue;
+    if (f.part == Part::sheet) continue;
     triangles.emplace_back(to_cgal(oriented.corner(f, 0)), to_cgal(oriented.corner(f, 1)),
                            to_cgal(oriented.corner(f, 2)));
     areas.push_back(total += area(oriented, f));
@@ -73,6 +70,7 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
   const Tree tree(triangles.begin(), triangles.end());
   Random random(1);
   std::vector<std::pair<Point<3>, double>> seeds;  // and the distance from the surface
+  std::size_t apart = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const double at = (static_cast<double>(i) + random.real()) / samples * total;
     const std::size_t f = std::min<std::size_t>(
@@ -85,11 +83,13 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
     const K::Vector_3 normal(normals[f][0], normals[f][1], normals[f][2]);
     const double inwards = distance_along(tree, K::Ray_3(origin, -normal), &triangles[f]);
     const double outwards = distance_along(tree, K::Ray_3(origin, normal), &triangles[f]);
+    if (std::min(inwards, outwards) <= touching) continue;
+    ++apart;
     if (!std::isfinite(outwards) || !(outwards > farther * inwards)) continue;
     const K::Point_3 middle = origin + 0.5 * outwards * normal;
     seeds.push_back({{middle.x(), middle.y(), middle.z()}, outwards / 2});
   }
-  if (static_cast<double>(seeds.size()) <= enough * samples) return {};
+  if (static_cast<double>(seeds.size()) <= enough * static_cast<double>(apart)) return {};
   // The seed that is surrounded the most; of equal ones, the farthest from the surface.
   if (seeds.size() > most_seeds) {
     random.shuffle(seeds);
