@@ -9,7 +9,9 @@
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 namespace cellwalk::detail {
 namespace {
@@ -50,27 +52,32 @@ Vector<D> scaled_to_1(Vector<D> v) {
 template <int D>
 Near_place<D> find_near_place(const Thick_motion<D>& motion, std::span<const Point<D>> wall,
                               const Near_time& near, double time) {
-  Points<D> moved{point_on<D>(motion.p, motion.target, time)}, still, met;
-  if (near.body == Body_feature::edge) still.push_back(*motion.q);
-  moved.insert(moved.end(), still.begin(), still.end());
-  const auto& corners = near.of_wall.corners;
-  const bool is_facet = near.of_wall.size == D;
+  // The features; of the one that moves, the first corner goes from one place to another.
+  const auto& [of_motion, of_wall] = std::tie(near.of_motion, near.of_wall);
+  const std::array still{motion.p, motion.q.value_or(motion.p), motion.third.value_or(motion.p)};
+  Points<D> moved, met;
+  for (std::size_t i = 0; i < of_motion.size; ++i) moved.push_back(still[of_motion.corners[i]]);
+  const bool is_moving = of_motion.corners[0] == 0;
+  const Point<D> from = moved[0], target = is_moving ? motion.target : from;
+  moved[0] = point_on<D>(from, target, time);
+  const bool is_facet = of_wall.size == D;
   if (D == 3 && is_facet)
     met.assign(wall.begin(), wall.end());
   else
-    for (std::size_t i = 0; i < near.of_wall.size; ++i) met.push_back(wall[corners[i]]);
-  const std::span<const Point<D>> of_wall{met.data(), met.size()};
-  const Nearest<D> nearest = nearest_in_doubles<D>({moved.data(), moved.size()}, of_wall);
+    for (std::size_t i = 0; i < of_wall.size; ++i) met.push_back(wall[of_wall.corners[i]]);
+  const std::span<const Point<D>> features{met.data(), met.size()};
+  const auto [pair, on_motion, on_wall] = nearest_in_doubles<D>({moved.data(), moved.size()}, features);
   if (is_facet) {
+    const auto& k = of_wall.corners;
     if constexpr (D == 2)
-      return {nearest.on_b, facet_normal<2>(motion.p, met[0], met[1])};
+      return {on_motion, on_wall, facet_normal<2>(motion.p, met[0], met[1])};
     else
-      return {nearest.on_b, facet_normal<3>(motion.p, wall[corners[0]], wall[corners[1]], wall[corners[2]])};
+      return {on_motion, on_wall, facet_normal<3>(motion.p, wall[k[0]], wall[k[1]], wall[k[2]])};
   }
   const double most = std::max(largest_coordinate<D>(moved), largest_coordinate<D>(met));
-  if (motion.radius > least_part * most) return {nearest.on_b, scaled_to_1<D>(nearest.on_a - nearest.on_b)};
-  return {nearest.on_b,
-          common_normal<D>(motion.p, motion.target, time, {still.data(), still.size()}, of_wall)};
+  if (motion.radius > least_part * most) return {on_motion, on_wall, scaled_to_1<D>(on_motion - on_wall)};
+  return {on_motion, on_wall,
+          common_normal<D>(from, target, time, {moved.data() + 1, moved.size() - 1}, features)};
 }
 
 template Near_place<2> find_near_place<2>(const Thick_motion<2>&, std::span<const Point<2>>, const Near_time&,

@@ -9,8 +9,8 @@ namespace cellwalk::detail {
 
 template <int D>
 struct Near_place {
-  Point<D> on_wall;  ///< rounded
-  Vector<D> normal;  ///< from there to what moves; of length 1, against the motion
+  Point<D> on_motion, on_wall;  ///< rounded
+  Vector<D> normal;             ///< from the wall to what moves; of length 1, against the motion
 };
 
 /// \param time that of `near`, rounded

@@ -16,19 +16,28 @@ namespace cellwalk::detail {
 /// The last time at which a motion is free of a wall, and the features that are nearest then.
 struct Near_time {
   Exact_root root;
-  Body_feature body;  ///< the vertex, or the edge elsewhere
+  Feature of_motion;  ///< of its corners: 0 is the one that moves, 1 is q, 2 the third one
   Feature of_wall;
 };
 
-/// The order of contacts at one time.
+/// The order of contacts by time, then by features.
 bool is_before(const Near_time& x, const Near_time& y);
 
-/// \param wall the corners of a wall, in order; of a facet the first three are not collinear
+/// \param motion of a vertex, an edge or a face
+/// \param wall a point, the two ends of a segment, or but for faces the corners of a wall in order, of which
+///        the first three are not collinear
 /// \pre where the motion starts, it is at least as far from the wall as its radius; the hull of the motion is
 ///        nearer
 /// Cost: ring numbers for each feature of the wall.
 template <int D>
 Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall);
+
+/// True proves that a wall is no reason to stop before a contact that is known, nor at it: what is swept
+/// until the next double after its time keeps the distance.
+/// \param time of the contact, rounded down
+/// Cost: that of is_apart().
+template <int D>
+bool is_later(const Thick_motion<D>& motion, std::span<const Point<D>> wall, double time);
 
 }  // namespace cellwalk::detail
 

@@ -38,11 +38,7 @@ class Near_walls {
       is_in_frame_ &= snapshot.frame().map(x, y);
       corners_.push_back(spread<D>(y));
     }
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < D; ++k) {
-      box_.low[k] = std::nextafter(box_.low[k] - distance, -infinity);
-      box_.high[k] = std::nextafter(box_.high[k] + distance, infinity);
-    }
+    box_ = enlarged(box_, distance);
     const double in_frame =
         distance * snapshot.frame().scale * (1 + 0x1p-20) + static_cast<double>(plane_error);
     constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());

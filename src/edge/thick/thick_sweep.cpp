@@ -6,8 +6,6 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "near_normal.h"
 #include "near_time.h"
@@ -112,25 +110,8 @@ class Thick_sweep {
     return {{{{0, 1, 0}, 2}, {{0, 1, 2}, 3}}, x, x};
   }
 
-  /// True proves that a wall is no reason to stop before the contact that is known, nor at it: what is swept
-  /// until the next double after its time keeps the distance. The end of that is off by rounding, and the
-  /// distance by no more.
-  bool is_later(const Points<D>& corners) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr double most = 0x1p1000;  // of coordinates whose differences are finite
-    Points<D> swept = before_;
-    swept.push_back(point_on<D>(motion_.p, motion_.target, std::nextafter(first_->time, infinity)));
-    double largest = 0;
-    for (std::size_t k = 0; k < D; ++k)
-      largest = std::max({largest, std::abs(motion_.p[k]), std::abs(motion_.target[k])});
-    const double r = std::nextafter(motion_.radius + 0x1p-48 * largest, infinity);
-    Feature_pair near;
-    return largest < most && std::isfinite(r) &&
-           is_apart<D>(in<D>(swept), in<D>(corners), r, near, distance_counts_);
-  }
-
   void keep_first(Half_facet wall, const Points<D>& corners) {
-    if (first_ && is_later(corners)) return;
+    if (first_ && is_later<D>(motion_, in<D>(corners), first_->time)) return;
     const Near_time near = find_near_time<D>(motion_, in<D>(corners));
     Contact<D> contact;
     contact.set_time(to_time(near.root));
@@ -138,7 +119,7 @@ class Thick_sweep {
     const Near_place<D> place = find_near_place<D>(motion_, in<D>(corners), near, contact.time);
     contact.point = place.on_wall;
     contact.normal = place.normal;
-    contact.body = near.body;
+    contact.body = near.of_motion.size == 2 ? Body_feature::edge : Body_feature::vertex;
     contact.cell = start_;
     set_feature(contact, wall, near.of_wall);
     if (!first_ || is_before(contact, *first_)) first_ = contact;

@@ -89,14 +89,6 @@ bool is_pair(const Feature_pair& pair, std::size_t corners_of_a, std::size_t cor
   return true;
 }
 
-inline Feature vertex_feature(std::size_t i) { return {{static_cast<std::uint16_t>(i), 0, 0}, 1}; }
-inline Feature edge_feature(std::size_t i, std::size_t j) {
-  return {{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j), 0}, 2};
-}
-inline Feature facet_feature(std::size_t i, std::size_t j, std::size_t k) {
-  return {{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j), static_cast<std::uint16_t>(k)}, 3};
-}
-
 /// The edges of a simplex: all pairs of its corners.
 template <class Use>
 void for_each_edge_of_simplex(std::size_t corners, Use use) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The stages of is_apart(): boxes, a direction that is known, nearest features in doubles, ring numbers.
-#include <cellwalk/internal/kernel/distance.h>
-#include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/direction_at_distance.h>
 #include <cellwalk/internal/kernel/greatest_double.h>
 #include <cellwalk/internal/kernel/predicates.h>
 
@@ -117,7 +116,9 @@ Vector<D> common_normal(const Point<D>& from, const Point<D>& target, double tim
   typename Ring_hulls<D>::Corners of_a{ring_point<D>(from, target, time)}, of_b = ring_corners<D>(b);
   for (const Point<D>& x : still) of_a.push_back(in_ring<D>(x));
   const Hulls<Ring, D> hulls{{of_a.data(), of_a.size()}, {of_b.data(), of_b.size()}};
-  const auto all_of = [](std::size_t size) { return size == 1 ? vertex_feature(0) : edge_feature(0, 1); };
+  const auto all_of = [](std::size_t size) {
+    return size == 1 ? vertex_feature(0) : size == 2 ? edge_feature(0, 1) : facet_feature(0, 1, 2);
+  };
   const auto n = direction_of<Ring, D>(hulls, {all_of(of_a.size()), all_of(of_b.size())});
   const bool leads_to_a = CGAL::sign(product(n, difference(of_a[0], of_b[0]))) == CGAL::POSITIVE;
   Ring largest(0);
@@ -158,5 +159,24 @@ double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<
 
 template double distance_rounded_down<2>(std::span<const Point<2>>, std::span<const Point<2>>);
 template double distance_rounded_down<3>(std::span<const Point<3>>, std::span<const Point<3>>);
+
+template <int D>
+std::optional<Direction_at_distance<D>> direction_at_distance(std::span<const Point<D>> a,
+                                                              std::span<const Point<D>> b, double r) {
+  if (distance_bound<D>(a, b) > r) return {};
+  const auto of_a = ring_corners<D>(a);
+  const auto n = Ring_hulls<D>(of_a, b, r).find_direction_at_distance();
+  if (!n) return {};
+  Direction_at_distance<D> result{*n, 0};
+  for (std::size_t i = 1; i < of_a.size(); ++i)
+    if (CGAL::sign(product(*n, difference(of_a[i], of_a[result.corner]))) == CGAL::POSITIVE)
+      result.corner = i;
+  return result;
+}
+
+template std::optional<Direction_at_distance<2>> direction_at_distance(std::span<const Point<2>>,
+                                                                       std::span<const Point<2>>, double);
+template std::optional<Direction_at_distance<3>> direction_at_distance(std::span<const Point<3>>,
+                                                                       std::span<const Point<3>>, double);
 
 }  // namespace cellwalk::detail

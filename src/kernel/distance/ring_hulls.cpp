@@ -34,9 +34,11 @@ bool has_foot_in_triangle(const std::array<Ring, 3>& x,
 
 }  // namespace
 
+/// The direction of a pair, from a to b if it parts them, and the order of what it shows and r.
 template <int D>
-bool Ring_hulls<D>::parts(const Feature_pair& pair) const {
-  const Corner n = direction_of<Ring, D>(hulls(), pair);
+std::pair<typename Ring_hulls<D>::Corner, std::strong_ordering> Ring_hulls<D>::measure(
+    const Feature_pair& pair) const {
+  Corner n = direction_of<Ring, D>(hulls(), pair);
   // The ends of both hulls along n, from the first corner of b.
   const auto bounds = [&](const Corners& corners) {
     Ring low(product(n, difference(corners[0], b_[0]))), high(low);
@@ -50,9 +52,14 @@ bool Ring_hulls<D>::parts(const Feature_pair& pair) const {
   const auto [a_low, a_high] = bounds(a_);
   const auto [b_low, b_high] = bounds(b_);
   const Ring right(b_low - a_high), left(a_low - b_high);
-  const Ring& gap = sign(right) > 0 ? right : left;
+  const bool is_right = sign(right) > 0;
+  const Ring& gap = is_right ? right : left;
   // Hulls that overlap deeply have a large square, too: the sign has to be tested.
-  return sign(gap) > 0 && !(Ring(gap * gap) < Ring(square_ * product(n, n)));
+  if (sign(gap) <= 0) return {n, std::strong_ordering::less};
+  const Ring excess(Ring(gap * gap) - Ring(square_ * product(n, n)));
+  if (!is_right)
+    for (Ring& x : n) x = Ring(-x);
+  return {n, sign(excess) <=> 0};
 }
 
 template <int D>
@@ -87,12 +94,14 @@ bool Ring_hulls<D>::are_near(const Feature_pair& pair) const {
   return Ring(along * along) < Ring(square_ * nn) && has_feet(pair, n);
 }
 
+/// Calls use() with each pair of the list, until it returns false.
 template <int D>
-std::optional<Feature_pair> Ring_hulls<D>::find_parting() const {
-  std::optional<Feature_pair> found;
+template <class Use>
+void Ring_hulls<D>::for_each_pair(Use use) const {
+  bool goes_on = true;
   const auto test = [&](const Feature& a, const Feature& b) {
     const Feature_pair pair{a, b};
-    if (!found && is_pair<D>(pair, a_.size(), b_.size()) && parts(pair)) found = pair;
+    if (goes_on && is_pair<D>(pair, a_.size(), b_.size())) goes_on = use(pair);
   };
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const Feature vertex = vertex_feature(i);
@@ -105,6 +114,28 @@ std::optional<Feature_pair> Ring_hulls<D>::find_parting() const {
   });
   for_each_triangle_of_polygon(b_.size(), [&](const Feature& facet) { test(vertex_feature(0), facet); });
   for_each_facet_of_simplex(a_.size(), [&](const Feature& facet) { test(facet, vertex_feature(0)); });
+}
+
+template <int D>
+std::optional<Feature_pair> Ring_hulls<D>::find_parting() const {
+  std::optional<Feature_pair> found;
+  for_each_pair([&](const Feature_pair& pair) {
+    if (parts(pair)) found = pair;
+    return !found;
+  });
+  return found;
+}
+
+/// No direction shows more than the distance.
+template <int D>
+std::optional<typename Ring_hulls<D>::Corner> Ring_hulls<D>::find_direction_at_distance() const {
+  std::optional<Corner> found;
+  for_each_pair([&](const Feature_pair& pair) {
+    const auto [n, order] = measure(pair);
+    if (order > 0) found.reset();
+    if (order == 0) found = n;
+    return order <= 0;
+  });
   return found;
 }
 

@@ -7,7 +7,9 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <compare>
 #include <optional>
+#include <utility>
 
 #include "directions.h"
 
@@ -32,15 +34,23 @@ class Ring_hulls {
     square_ = Ring(radius_ * radius_);
   }
 
-  /// True if the direction of a pair shows that the hulls are at least r apart.
-  bool parts(const Feature_pair& pair) const;
+  /// The order of the distance that the direction of a pair shows, and of r.
+  std::strong_ordering compare(const Feature_pair& pair) const { return measure(pair).second; }
+  /// True if that shows that the hulls are at least r apart.
+  bool parts(const Feature_pair& pair) const { return compare(pair) >= 0; }
   /// True if the feet of a pair lie in its features, and are nearer than r.
   bool are_near(const Feature_pair& pair) const;
   /// A pair by whose direction the hulls are at least r apart; none if they are nearer.
   std::optional<Feature_pair> find_parting() const;
+  /// The direction from a to b along which the hulls are exactly r apart; none if they are farther apart, or
+  /// nearer.
+  std::optional<Corner> find_direction_at_distance() const;
 
  private:
   Hulls<Ring, D> hulls() const { return {{a_.data(), a_.size()}, {b_.data(), b_.size()}}; }
+  std::pair<Corner, std::strong_ordering> measure(const Feature_pair& pair) const;
+  template <class Use>
+  void for_each_pair(Use use) const;
   bool has_feet(const Feature_pair& pair, const Corner& n) const;
 
   Corners a_, b_;

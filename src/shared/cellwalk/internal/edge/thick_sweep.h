@@ -11,12 +11,14 @@
 
 namespace cellwalk::detail {
 
-/// The motion of a vertex from p to a target, alone or with an edge to a point q that stands still.
+/// The motion of a vertex from p to a target: alone, with an edge to a point q that stands still, or with a
+/// face.
 template <int D>
 struct Thick_motion {
   Point<D> p, target;
   std::optional<Point<D>> q;
-  double radius = 0;  ///< finite, greater than 0
+  double radius = 0;                ///< finite, greater than 0
+  std::optional<Point<D>> third{};  ///< of a face (3D): its third corner, which stands still as q does
 };
 
 /// The first time at which the vertex or the edge is at the distance r from a wall and comes nearer.

@@ -6,6 +6,7 @@
 #include <cellwalk/kernel/point.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -39,6 +40,18 @@ struct Box {
     }
   }
 };
+
+/// A box of all that is within a distance of one; the same box for the distance 0.
+template <int D>
+Box<D> enlarged(Box<D> box, double distance) {
+  if (distance == 0) return box;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < D; ++k) {
+    box.low[k] = std::nextafter(box.low[k] - distance, -infinity);
+    box.high[k] = std::nextafter(box.high[k] + distance, infinity);
+  }
+  return box;
+}
 
 }  // namespace cellwalk::detail
 

@@ -39,6 +39,14 @@ struct Feature {
   bool operator==(const Feature&) const = default;
 };
 
+inline Feature vertex_feature(std::size_t i) { return {{static_cast<std::uint16_t>(i), 0, 0}, 1}; }
+inline Feature edge_feature(std::size_t i, std::size_t j) {
+  return {{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j), 0}, 2};
+}
+inline Feature facet_feature(std::size_t i, std::size_t j, std::size_t k) {
+  return {{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j), static_cast<std::uint16_t>(k)}, 3};
+}
+
 /// A feature of each of two hulls, between which they are nearest: together of dimension D - 1 at most.
 struct Feature_pair {
   Feature a, b;
@@ -71,8 +79,8 @@ bool is_apart_until(const Point<D>& from, const Point<D>& target, std::span<cons
 
 /// The unit vector from one flat feature to another that is normal to both, where they are nearest: from `b`
 /// to the hull of that point of a motion and of `still`.
-/// \param still none, or one point that is not in the place of the motion then
-/// \param b one or two points
+/// \param still up to two points, not collinear with that of the motion then
+/// \param b one or two points, one if there are two still ones
 /// \pre the features do not meet; if both are edges, they are not parallel
 /// Cost: ring numbers. Exact but for the rounding of the result.
 template <int D>
