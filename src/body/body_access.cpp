@@ -2,6 +2,8 @@
 // The box that a body may reach, its cells, chains and supporting walls, read and written by edits.
 #include <cellwalk/internal/body/body_access.h>
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -46,7 +48,7 @@ Box<D> Body_access<D>::reach() const {
   for (const Particle<D>& particle : state_->particles) box.extend(particle.position);
   if (const Clear_region<D>* region = state_->region.region()) extend(box, *region);
   for (const Clear_region<D>& region : state_->pool.regions()) extend(box, region);
-  return box;
+  return enlarged(box, largest_radius());
 }
 
 template <int D>
@@ -58,6 +60,23 @@ void Body_access<D>::leave_regions(Body_counts& counts) {
 template <int D>
 bool Body_access<D>::has_radii(const Body<D>& body) {
   return !body.state_->thick.are_none();
+}
+
+template <int D>
+double Body_access<D>::radius_of_edge(std::uint32_t edge) const {
+  return state_->thick.radius(edge);
+}
+
+template <int D>
+double Body_access<D>::radius_of_vertex(std::uint32_t vertex) const {
+  return state_->topology.corners_of(vertex).empty() ? state_->thick.radius_of_vertices() : 0;
+}
+
+template <int D>
+double Body_access<D>::largest_radius() const {
+  const std::span<const double> radii = state_->thick.radii();
+  return std::accumulate(radii.begin(), radii.end(), state_->thick.radius_of_vertices(),
+                         [](double x, double y) { return std::max(x, y); });
 }
 
 template <int D>

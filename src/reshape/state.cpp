@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "move/thick_trial.h"
 #include "move/wall_hit.h"
 
 namespace cellwalk::detail {
@@ -88,10 +89,17 @@ bool Reshaping_state<D>::decide(const Point<D>& from, std::uint32_t point, bool 
   }
   const Moving_star<D> star(mover.snapshot(), point, from, mover.star(), counts.walk);
   counts.walls += star.walls().size();
-  if (trial.run(star, mover.star(), any)) return true;
-  const auto& collision = trial.collision();
-  result.end = collision ? Move_end::contact : Move_end::touch;
-  if (collision) result.hit = to_wall_hit(*collision, star, groups);
+  std::optional<Wall_hit<D>> hit = first_near_hit(star, groups, any);
+  if (any && hit) {
+    result.end = Move_end::touch;
+    return false;
+  }
+  if (trial.run(star, mover.star(), any) && !hit) return true;
+  if (const auto& collision = trial.collision();
+      collision && !(hit && hit->exact_time() < to_time(collision->time)))
+    hit = to_wall_hit(*collision, star, groups);
+  result.end = hit ? Move_end::contact : Move_end::touch;
+  result.hit = std::move(hit);
   return false;
 }
 

@@ -39,9 +39,9 @@ double at_least(const std::array<Point<D>, 2>& box, const Thick_wall<D>& wall) {
 
 template <int D>
 Thick_oracle<D>::Thick_oracle(const Snapshot<D>& snapshot) {
-  for (std::size_t i = 0; i < snapshot.cell_count(); ++i) {
+  for (std::size_t i = 0; i < snapshot.cell_slots(); ++i) {
     const Cell c = snapshot.cell(i);
-    if (snapshot.is_solid(c)) continue;
+    if (c == Cell::none || snapshot.is_solid(c)) continue;
     for (std::size_t k = 0; k < snapshot.facet_count(c); ++k) {
       const Half_facet f = Snapshot<D>::half_facet(c, k);
       if (!snapshot.is_impassable(f)) continue;

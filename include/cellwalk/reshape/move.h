@@ -60,7 +60,9 @@ enum class Move_end : std::uint8_t {
 /// The first contact of a moving wall with a resident through which it would pass. `time` is the free share
 /// of the move of the wall's vertex; it is exact, except for faces that another wall touches before.
 /// `vertex` is that vertex of the environment; if `kind` is a vertex, it is this one. `normal` leads from the
-/// wall to the resident, and `facet` is the wall seen from that side. `cell` and `corner` are not set.
+/// wall to the resident, and `facet` is the wall seen from that side. `cell` and `corner` are not set. Of a
+/// resident with a radius it is where the wall is at that distance and would come nearer; `point` is on the
+/// wall.
 template <int D>
 struct Wall_hit : Contact<D> {
   /// Weights of the corners of the wall at the point, rounded, of sum 1: first the vertex that moves, then

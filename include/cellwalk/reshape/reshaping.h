@@ -56,7 +56,8 @@ struct Reshape_options {
 /// for them.
 ///
 /// A move is made whole or not at all: an exact test of each wall at the vertex against each vertex, edge and
-/// face near it. Faces are looked at if the body was last moved with Sweep::faces (3D).
+/// face near it. Faces are looked at if the body was last moved with Sweep::faces (3D). Of edges with a
+/// radius each wall keeps that distance, while it moves and where one appears; docs/radius.md.
 ///
 /// Between moves facets can be opened and closed, and cells filled and excavated, of any shape;
 /// docs/cutting.md has the theory. Each such change is made whole or not at all, and decided exactly: free
@@ -108,10 +109,10 @@ class Reshaping {
 
   /// Makes a facet a wall, seen from either side.
   /// Refused if a vertex, an edge or a face would then be on both sides of it, as an edge that passes through
-  /// its inside. A vertex or an edge that only touches the facet is registered on a side of it on which the
-  /// rest of its body can be as well. Faces count if the body was last moved with Sweep::faces (3D); walls
-  /// may appear inside of a closed surface, and of a body in the plane, which has no faces. A facet that is a
-  /// wall already stays so.
+  /// its inside, or nearer to it than its radius. A vertex or an edge that only touches the facet is
+  /// registered on a side of it on which the rest of its body can be as well. Faces count if the body was
+  /// last moved with Sweep::faces (3D); walls may appear inside of a closed surface, and of a body in the
+  /// plane, which has no faces. A facet that is a wall already stays so.
   /// \throw Error as open(), and Error(usage) for a particle near that is not in its cell
   /// Degenerate cases: all are decided; see docs/cutting.md.
   /// Cost: about 1 us with nothing near; some signs an edge that passes it inside; exact numbers, up to a
@@ -125,8 +126,8 @@ class Reshaping {
   Outcome excavate(Cell cell);
 
   /// Makes a free cell solid: all its facets to free cells become walls. Refused if something lies in its
-  /// inside, or on its border with no free space beside it that it could be in as well. A cell that is solid
-  /// already stays so.
+  /// inside, or on its border with no free space beside it that it could be in as well, or is nearer to it
+  /// than its radius. A cell that is solid already stays so.
   /// \throw Error as excavate(), and Error(usage) for a particle near that is not in its cell
   /// Degenerate cases and cost: as close(), of all its facets.
   Outcome fill(Cell cell);

@@ -261,17 +261,6 @@ Scene_output output(const Json_node& node) {
   return result;
 }
 
-/// \throw Error(input) naming the first body with a radius
-template <int D>
-void refuse_radii(const Json_node& node, const Scene<D>& scene) {
-  constexpr const char* reason =
-      "not among walls that move or change: leave out the radius, or \"walls\" and "
-      "\"changes\"";
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.bodies[i].edge_radius > 0) node.at("bodies").elements()[i].at("edge_radius").fail(reason);
-  if (scene.catheter && scene.catheter->radius > 0) node.at("catheter").at("radius").fail(reason);
-}
-
 template <int D>
 Scene<D> scene(const Json_node& node) {
   node.expect_keys({"dimension", "title", "environment", "particles", "bodies", "catheter", "walls", "groups",
@@ -292,7 +281,6 @@ Scene<D> scene(const Json_node& node) {
         node.at("changes").elements()[i].at("cut").fail(
             "a cut makes vertices that know nothing of \"pulsation\" or \"soft\": leave these out, or give "
             "\"tissue\"");
-  if (result.walls || !result.changes.list.empty()) refuse_radii(node, result);
   if (result.particles.empty() && result.bodies.empty() && !result.catheter)
     node.fail("nothing moves: give \"particles\", \"bodies\" or \"catheter\"");
   if (const auto gravity = node.find("gravity")) result.gravity = gravity->template tuple<D>();

@@ -71,7 +71,8 @@ Replacement Merger<D>::merge_vertices(std::uint32_t point, std::uint32_t onto) {
   if (!result.reason.empty()) return result;
   const std::vector<Cell> free = transaction_.free_of(star);
   transaction_.open(star);
-  result.held_by = transaction_.leave(free, true);
+  const typename Cell_transaction<D>::Moved_walls moved{soup, {}};
+  result.held_by = transaction_.leave(free, &moved);
   if (!result.held_by.empty()) {
     result.reason = "something lies in the free cells around the point";
     return result;

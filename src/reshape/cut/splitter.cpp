@@ -194,9 +194,10 @@ std::optional<std::uint32_t> Splitter<D>::split_at(std::uint32_t u, std::uint32_
     }
   }
   transaction_.open(cells);
-  const bool may_be = walls_there == Walls::retreat
-                          ? may_move_walls(cells, u, v, position)
-                          : keeps_solid_off(cells, edge, position) && transaction_.leave(free, true).empty();
+  const typename Cell_transaction<D>::Moved_walls moved{soup, position};
+  const bool may_be = walls_there == Walls::retreat ? may_move_walls(cells, u, v, position)
+                                                    : keeps_solid_off(cells, edge, position) &&
+                                                          transaction_.leave(free, &moved).empty();
   if (!may_be) return std::nullopt;
   transaction_.note(free);
   transaction_.replace(cells, soup, glue_patch(soup), position, Cell_transaction<D>::Into::free);

@@ -33,17 +33,32 @@ void Cell_transaction<D>::open(std::span<const Cell> cells) {
 }
 
 template <int D>
-std::vector<Resident> Cell_transaction<D>::leave(std::span<const Cell> free, bool no_faces) {
+std::vector<Resident> Cell_transaction<D>::leave(std::span<const Cell> free, const Moved_walls* moved) {
   Wall_editor<D> editor(environment_);
   Shrinkage<D> leaving(editor, groups_, free, counts_.walk);
   std::vector<Resident> holders = leaving.holders();
-  if (no_faces) {
-    for (const Member f : groups_.faces_near(box_of<D>(snapshot(), free)))
-      holders.push_back(groups_.at(f, Body_feature::face));
-    std::ranges::sort(holders);
-  }
+  if (moved) add_holders(free, *moved, holders);
   if (holders.empty()) leaving.make();
   return holders;
+}
+
+/// Walls between solid cells are behind others, and need not be left out.
+template <int D>
+void Cell_transaction<D>::add_holders(std::span<const Cell> free, const Moved_walls& moved,
+                                      std::vector<Resident>& holders) const {
+  for (const Member f : groups_.faces_near(box_of<D>(snapshot(), free)))
+    holders.push_back(groups_.at(f, Body_feature::face));
+  const auto& [soup, added] = moved;
+  std::vector<Point<D>> corners;
+  for (std::size_t f = 0; f < soup.facet_count(); ++f) {
+    if (soup.impassable[f] == 0) continue;
+    corners.clear();
+    for (const std::uint32_t p : soup.facet(f))
+      corners.push_back(added && p == snapshot().next_point() ? *added : snapshot().point(p));
+    groups_.add_nearer(corners, holders);
+  }
+  std::ranges::sort(holders);
+  holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
 }
 
 template <int D>

@@ -41,10 +41,16 @@ class Cell_transaction {
   /// True if a face that is kept rests on the walls of the noted cells.
   bool has_rests() const { return relinker_.has_rests(); }
 
+  /// Cells to come whose walls are not where they were.
+  struct Moved_walls {
+    const Cell_soup<D>& soup;
+    std::optional<Point<D>> added;  ///< as that of replace()
+  };
   /// Registers all that lies in free cells in other cells, and returns nothing; or the residents that must be
   /// in these, sorted, and nothing has changed.
-  /// \param no_faces faces near these cells must not be there either
-  std::vector<Resident> leave(std::span<const Cell> free, bool no_faces);
+  /// \param moved if not null, no face may lie near these cells either, and nothing that has a radius nearer
+  ///        than that to these walls
+  std::vector<Resident> leave(std::span<const Cell> free, const Moved_walls* moved = nullptr);
 
   /// Replaces cells, and registers the noted residents in those of the new ones that are given, all or free.
   /// Returns the new cells.
@@ -61,6 +67,9 @@ class Cell_transaction {
   bool is_broken() const { return is_broken_; }
 
  private:
+  void add_holders(std::span<const Cell> free, const Moved_walls& moved,
+                   std::vector<Resident>& holders) const;
+
   Environment<D>& environment_;
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;

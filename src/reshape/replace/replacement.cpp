@@ -327,7 +327,7 @@ Replacement Replacer<D>::split_edge(std::uint32_t u, std::uint32_t v, const Poin
   reason = check_wall_edge<D>(snapshot(), patch.removed, {u, v}, position, soup);
   if (!reason.empty()) return refused(std::move(reason));
   prepare(patch);
-  if (transaction_.has_rests() || !transaction_.leave(transaction_.free_of(patch.removed), false).empty())
+  if (transaction_.has_rests() || !transaction_.leave(transaction_.free_of(patch.removed)).empty())
     return refused("a wall has the edge, and something lies in the cells around it");
   transaction_.note(patch.removed);
   return replace(patch, soup, glue_patch(soup));

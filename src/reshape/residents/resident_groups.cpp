@@ -38,12 +38,10 @@ Resident_groups<D>::Resident_groups(const Snapshot<D>& snapshot, const Residents
     if (&group.body->snapshot() != &snapshot)
       throw Error(Error_code::usage, "a body listed lies in another environment: list it where it is");
     group.body->check_epoch();
-    if (Body_access<D>::has_radii(*body))
-      throw Error(Error_code::usage,
-                  "a body listed has a radius: walls cannot move or change among those yet");
     group.edges = body->edges();
     group.faces = body->faces();
     group.reach = group.body->reach();
+    group.radius = group.body->largest_radius();
   }
   for (const std::span<Particle<D>> particles : residents.particles) {
     Resident_group<D>& group = groups_.emplace_back();
@@ -80,6 +78,7 @@ std::size_t Resident_groups<D>::open(const Box<D>& box) {
           refuse_particle(i);
     }
     enter_all(g);
+    add_thick(g);
     group.is_open = true;
     ++open_;
     ++opened;
@@ -94,6 +93,29 @@ void Resident_groups<D>::enter_all(std::uint32_t group) {
   for (std::uint32_t v = 0; v < of.particles.size(); ++v) enter_vertex({group, v}, of.particles[v].cell);
   for (std::uint32_t e = 0; e < of.edges.size(); ++e)
     enter_edge({group, e}, of.particles[of.edges[e][0]].cell, chain({group, e}), {});
+}
+
+template <int D>
+void Resident_groups<D>::add_thick(std::uint32_t group) {
+  const Resident_group<D>& of = groups_[group];
+  if (of.radius == 0) return;
+  const auto add = [&](std::uint32_t number, Body_feature feature, double radius,
+                       std::span<const std::uint32_t> corners) {
+    if (radius == 0) return;
+    Thick_member<D> member{{group, number}, feature, radius, {corners.begin(), corners.end()}, {}};
+    for (const std::uint32_t v : corners) member.points.push_back(of.particles[v].position);
+    thick_.add(std::move(member));
+  };
+  for (std::uint32_t v = 0; v < of.particles.size(); ++v)
+    add(v, Body_feature::vertex, of.body->radius_of_vertex(v), {&v, 1});
+  for (std::uint32_t e = 0; e < of.edges.size(); ++e)
+    add(e, Body_feature::edge, of.body->radius_of_edge(e), of.edges[e]);
+}
+
+template <int D>
+void Resident_groups<D>::add_nearer(std::span<const Point<D>> hull, std::vector<Resident>& result) {
+  for (const Thick_member<D>* member : thick_.nearer_to(hull))
+    result.push_back(at(member->member, member->feature));
 }
 
 template <int D>
@@ -125,7 +147,12 @@ bool Resident_groups<D>::push(Member vertex, const Vector<D>& by, const Body_opt
       std::exchange(most_entries_, 0);  // if memory runs out, all is entered anew
   if (group.body) {
     Body_counts uncounted;
-    group.body->push(vertex.number, target, options, uncounted);
+    try {
+      group.body->push(vertex.number, target, options, uncounted);
+    } catch (...) {
+      thick_.move(vertex, particle.position);
+      throw;
+    }
   } else {
     Walk_counts uncounted;
     std::vector<Contact<D>> met;
@@ -134,7 +161,8 @@ bool Resident_groups<D>::push(Member vertex, const Vector<D>& by, const Body_opt
   }
   const bool has_moved = particle.position != from;
   if (has_moved) {
-    group.reach.extend(particle.position);
+    group.reach.extend(enlarged(Box<D>{particle.position, particle.position}, group.radius));
+    if (group.radius > 0) thick_.move(vertex, particle.position);
     enter_vertex(vertex, particle.cell);
     for (std::uint32_t e = 0; e < group.edges.size(); ++e)
       if (group.edges[e][0] == vertex.number || group.edges[e][1] == vertex.number)

@@ -8,7 +8,6 @@
 #include <cellwalk/reshape/move.h>
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +15,9 @@
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "member.h"
+#include "thick_members.h"
 
 namespace cellwalk::detail {
 
@@ -26,14 +28,9 @@ struct Resident_group {
   std::span<Particle<D>> particles;  ///< of a body: once it is open
   std::span<const std::array<std::uint32_t, 2>> edges;
   std::span<const std::array<std::uint32_t, 3>> faces;
-  Box<D> reach;  ///< of all places that its registration depends on
+  Box<D> reach;       ///< of all places that its registration depends on, and of what is within its radii
+  double radius = 0;  ///< the largest
   bool is_open = false;
-};
-
-/// A vertex or an edge of a group.
-struct Member {
-  std::uint32_t group, number;
-  auto operator<=>(const Member&) const = default;
 };
 
 /// Groups are opened when a vertex of the environment moves near them: stale vertices and edges are
@@ -69,6 +66,11 @@ class Resident_groups {
   /// Sets the vertices registered in some cells, and the edges that may pass them; ascending.
   void find(std::span<const Cell> cells, std::vector<Member>& vertices, std::vector<Member>& edges);
 
+  /// The vertices and edges with a radius, of groups that are open.
+  Thick_members<D>& thick() { return thick_; }
+  /// Appends those that are nearer than their radius to a hull.
+  void add_nearer(std::span<const Point<D>> hull, std::vector<Resident>& result);
+
   /// The faces of bodies that keep faces, and are open, whose boxes meet a box.
   std::vector<Member> faces_near(const Box<D>& box) const;
 
@@ -96,6 +98,7 @@ class Resident_groups {
   };
   void enter(Cell cell, Member member, bool is_edge);
   void enter_all(std::uint32_t group);
+  void add_thick(std::uint32_t group);
   void enter_anew();
   std::size_t body_count() const;
 
@@ -108,6 +111,7 @@ class Resident_groups {
   std::vector<std::size_t> first_edge_;  ///< of each group, when all edges are numbered
   std::vector<std::uint64_t> seen_;      ///< of each edge, the last list of a cell that had it
   std::uint64_t lists_ = 0;              ///< searched so far
+  Thick_members<D> thick_;
 };
 
 extern template class Resident_groups<2>;

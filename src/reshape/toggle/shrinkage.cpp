@@ -84,9 +84,28 @@ std::vector<Resident> Shrinkage<D>::holders() {
   const auto& groups = groups_.all();
   for (std::uint32_t g = 0; g < groups.size(); ++g)
     if (groups[g].is_open && groups[g].reach.meets(box_)) try_group(g);
+  is_too_near_ = held_by_.empty();
+  find_thick_holders();
+  is_too_near_ &= !held_by_.empty();
   std::sort(held_by_.begin(), held_by_.end());
   held_by_.erase(std::unique(held_by_.begin(), held_by_.end()), held_by_.end());
   return held_by_;
+}
+
+/// What would be nearer to a new wall than its radius, or is inside of a cell that is filled.
+template <int D>
+void Shrinkage<D>::find_thick_holders() {
+  if (aim_ == Aim::leave) return;  // whoever moves the walls tests them
+  std::vector<Point<D>> corners;
+  for (const Half_facet wall : walls_) {
+    corners.clear();
+    for (const std::uint32_t p : snapshot_.loop(wall)) corners.push_back(snapshot_.point(p));
+    groups_.add_nearer(corners, held_by_);
+  }
+  if (aim_ == Aim::close) return;
+  for (const Thick_member<D>* member : groups_.thick().near(box_))
+    if (in_closure(snapshot_, filled_.front(), member->points[0]))
+      held_by_.push_back(groups_.at(member->member, member->feature));
 }
 
 template <int D>

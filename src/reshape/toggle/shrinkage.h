@@ -37,6 +37,8 @@ class Shrinkage {
 
   /// Finds the residents that forbid the change, sorted. Nothing is changed, but that groups near are opened.
   std::vector<Resident> holders();
+  /// True if holders() found some that would only be nearer to new walls than their radius.
+  bool is_too_near() const { return is_too_near_; }
   /// Makes the change, and registers the residents near. An error leaves all as it was.
   /// \pre holders() found none
   void make();
@@ -66,6 +68,7 @@ class Shrinkage {
   bool stand(std::uint32_t group, Group& of_group, std::uint32_t& failed);
   enum class Aim : std::uint8_t { close, fill, leave };
   void find_box();
+  void find_thick_holders();
 
   Wall_editor<D>& editor_;
   const Snapshot<D>& snapshot_;
@@ -82,6 +85,7 @@ class Shrinkage {
   std::vector<std::pair<std::uint32_t, Half_facet>> in_plane_;  ///< of these, with the wall that they overlap
   std::vector<Group> free_;                                     ///< with their registration after the change
   std::vector<Resident> held_by_;
+  bool is_too_near_ = false;
 };
 
 extern template class Shrinkage<2>;

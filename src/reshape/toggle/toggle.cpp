@@ -15,10 +15,11 @@ Outcome made() { return {true, {}, {}}; }
 Outcome refused(const char* reason) { return {false, reason, {}}; }
 
 /// \param reason why not, if something holds
+/// \param too_near why not, if only radii forbid it
 template <int D>
-Outcome shrunk(Shrinkage<D> change, const char* reason) {
+Outcome shrunk(Shrinkage<D> change, const char* reason, const char* too_near) {
   if (std::vector<Resident> holders = change.holders(); !holders.empty())
-    return {false, reason, std::move(holders)};
+    return {false, change.is_too_near() ? too_near : reason, std::move(holders)};
   change.make();
   return made();
 }
@@ -97,8 +98,8 @@ Outcome Toggle<D>::close(Half_facet facet) {
   editor_.check(facet);
   if (snapshot().is_impassable(facet)) return made();
   if (!snapshot().is_solid(snapshot().cell_of(facet)))
-    return shrunk(Shrinkage<D>(editor_, groups_, facet, counts_),
-                  "something lies on both sides of the facet");
+    return shrunk(Shrinkage<D>(editor_, groups_, facet, counts_), "something lies on both sides of the facet",
+                  "something is nearer to the facet than its radius");
   editor_.set_wall(facet, true);
   return made();
 }
@@ -107,7 +108,8 @@ template <int D>
 Outcome Toggle<D>::fill(Cell cell) {
   editor_.check(cell);
   if (snapshot().is_solid(cell)) return made();
-  return shrunk(Shrinkage<D>(editor_, groups_, cell, counts_), "something lies in the cell");
+  return shrunk(Shrinkage<D>(editor_, groups_, cell, counts_), "something lies in the cell",
+                "something is nearer to the cell than its radius");
 }
 
 template class Toggle<2>;

@@ -33,13 +33,17 @@ class Body_access {
   void follow_epoch();
 
   /// The box of all places that the registration of the body depends on: its positions, those at which
-  /// particles were registered last, and the regions free of walls with their anchors.
+  /// particles were registered last, the regions free of walls with their anchors, and all within its radii.
   /// Cost: reading them.
   Box<D> reach() const;
   /// Registers stale vertices and edges, and gives regions free of walls up.
   void leave_regions(Body_counts& counts);
   /// True if an edge or a vertex has a radius.
   static bool has_radii(const Body<D>& body);
+  double radius_of_edge(std::uint32_t edge) const;
+  /// 0 if it has edges.
+  double radius_of_vertex(std::uint32_t vertex) const;
+  double largest_radius() const;
   /// True if no wall pierces a face, and that is to stay so.
   bool keeps_faces() const;
 
