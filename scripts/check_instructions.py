@@ -44,7 +44,7 @@ SCENES = {
     "figure_8": ([["make_traces", "TRACE", "--motion", "rigid", "--cells", "10", "10", "10", "--steps", "100"]], None),
     "catheter": ([["cellwalk", "generate", "vessel", "--generations", "2", "-o", "vessel.ovm"],
                   ["cellwalk", "run", "DATA/catheter.json", "--set", "environment.generations=2", "--steps", "150",
-                   "--set", "output.picture=false", "-o", "catheter", "--record", "TRACE"]],
+                   "--set", "catheter.radius=0", "--set", "output.picture=false", "-o", "catheter", "--record", "TRACE"]],
                  "vessel.ovm"),
     "soft": ([["cellwalk", "generate", "hexes", "--cells", "6", "6", "4", "--solid", "0.1", "--seed", "3", "-o", "grid.ovm"],
               ["cellwalk", "run", "DATA/soft.json", "--steps", "60",
@@ -55,7 +55,7 @@ SCENES = {
 # With contacts: how a scene is run.
 STEPS = {
     "steps of a catheter": ["cellwalk", "run", "DATA/catheter.json", "--set", "environment.generations=2", "--steps", "220",
-                            "--set", "output.picture=false", "-o", "steps"],
+                            "--set", "catheter.radius=0", "--set", "output.picture=false", "-o", "steps"],
 }
 
 

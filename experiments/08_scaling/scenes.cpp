@@ -37,15 +37,15 @@ std::vector<Body_soup<3>> shapes(const Scene<3>& scene) {
 std::vector<Scene_entry> all_scenes(bool quick) {
   if (quick)
     return {{"hexahedra", "hexahedra.json", {"bodies[0].count=40"}, 20},
-            {"catheter", "catheter.json", {}, 60},
-            {"particles", "vessel.json", {"particles[0].count=300"}, 20}};
+            {"catheter", "catheter.json", {"catheter.radius=0"}, 60},
+            {"particles", "vessel.json", {"particles[0].count=300", "catheter.radius=0"}, 20}};
   return {{"hexahedra", "hexahedra.json", {"environment.cells=60", "bodies[0].count=10000"}, 200},
           {"larger hexahedra",
            "hexahedra.json",
            {"environment.cells=60", "bodies[0].count=10000", "bodies[0].side=0.9"},
            200},
-          {"catheter", "catheter.json", {}, 300},
-          {"particles", "vessel.json", {"particles[0].count=100000"}, 200}};
+          {"catheter", "catheter.json", {"catheter.radius=0"}, 300},
+          {"particles", "vessel.json", {"particles[0].count=100000", "catheter.radius=0"}, 200}};
 }
 
 Running_scene::Running_scene(const Scene_entry& entry)

@@ -75,11 +75,11 @@ void steps_in_aneurysm(benchmark::State& state) {
   });
 }
 
-BENCHMARK_CAPTURE(steps_in_vessel, vertices_110, "catheter.json", {})
+BENCHMARK_CAPTURE(steps_in_vessel, vertices_110, "catheter.json", {"catheter.radius=0"})
     ->Unit(benchmark::kMillisecond)
     ->MinTime(2);
 BENCHMARK_CAPTURE(steps_in_vessel, vertices_200, "catheter.json",
-                  {"catheter.particles=200", "catheter.spacing=0.11"})
+                  {"catheter.particles=200", "catheter.spacing=0.11", "catheter.radius=0"})
     ->Unit(benchmark::kMillisecond)
     ->MinTime(2);
 BENCHMARK_CAPTURE(steps_in_vessel, beating_vertices_200, "pulse.json",

@@ -115,9 +115,12 @@ void draw_body(Drawing& drawing, const Body<D>& body, std::span<const Point<D>> 
       body.edges().empty()
           ? particle_size * unit
           : std::min(body_edge_size * unit, edge_size * sum / static_cast<double>(body.edges().size()));
-  for (const auto& [u, v] : body.edges())
-    if (is_among(share.shapes, numbers.shapes++))
-      draw_line(drawing, std::vector<Point<D>>{positions[u], positions[v]}, size, height, materials.body);
+  for (std::size_t e = 0; e < body.edges().size(); ++e) {
+    if (!is_among(share.shapes, numbers.shapes++)) continue;
+    const auto& [u, v] = body.edges()[e];
+    draw_line(drawing, std::vector<Point<D>>{positions[u], positions[v]},
+              body.radius(e) > 0 ? body.radius(e) : size, height, materials.body);
+  }
   if (body.edges().empty())
     for (const Point<D>& x : positions)
       if (is_among(share.shapes, numbers.shapes++)) draw_dot(drawing, x, size, height, materials.body);

@@ -34,12 +34,14 @@ export function makeBodies(motion) {
   const group = new THREE.Group();
   const places = new Float32Array(3 * motion.vertices), tints = new Float32Array(3 * motion.vertices);
   const bodyOf = new Uint32Array(motion.vertices);
-  const kinds = { plain: [], surface: [], catheter: [] };
+  const kinds = { plain: [], surface: [], catheter: [] }, thick = new Map();
   let vertex = 0, edge = 0;
   motion.bodies.forEach((body, number) => {
     bodyOf.fill(number, vertex, vertex + body.vertices);
     const kind = body.kind === 'catheter' ? 'catheter' : body.faces > 0 ? 'surface' : 'plain';
-    for (let i = 0; i < body.edges; ++i) kinds[kind].push(edge + i);
+    if (body.radius > 0 && !thick.has(body.radius)) thick.set(body.radius, []);
+    const list = body.radius > 0 ? thick.get(body.radius) : kinds[kind];
+    for (let i = 0; i < body.edges; ++i) list.push(edge + i);
     vertex += body.vertices;
     edge += body.edges;
   });
@@ -57,6 +59,7 @@ export function makeBodies(motion) {
   add(kinds.plain, { width: edgeWidth, colours: true });
   add(kinds.surface, { width: surfaceEdgeWidth, colour: '#1e293b' });
   add(kinds.catheter, { width: catheterWidth, colours: true });
+  for (const [radius, list] of thick) add(list, { width: 2 * radius, inUnits: true, colours: true });
 
   const faces = new THREE.BufferGeometry();
   faces.setAttribute('position', new THREE.BufferAttribute(places, 3).setUsage(THREE.DynamicDrawUsage));

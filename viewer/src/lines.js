@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Many segments of a width in pixels, moved every frame.
+// Many segments of a width in pixels, or in units of the environment, moved every frame.
 import { DynamicDrawUsage, InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
 /** `count` segments; they have one colour, or with `colours` one at each end. What is not set again is not sent again. */
-export function fatLines(count, { width, colour = '#ffffff', colours = false, depth = true }) {
+export function fatLines(count, { width, inUnits = false, colour = '#ffffff', colours = false, depth = true }) {
   const geometry = new LineSegmentsGeometry();
   const buffer = () => new InstancedInterleavedBuffer(new Float32Array(6 * count), 6, 1).setUsage(DynamicDrawUsage);
   const places = buffer(), tints = colours ? buffer() : null;
@@ -24,7 +24,7 @@ export function fatLines(count, { width, colour = '#ffffff', colours = false, de
     bind('instanceColorEnd', tints, 3);
   };
   showPart(0, count);
-  const material = new LineMaterial({ color: colour, linewidth: width, vertexColors: colours, depthTest: depth });
+  const material = new LineMaterial({ color: colour, linewidth: width, worldUnits: inUnits, vertexColors: colours, depthTest: depth });
   const object = new LineSegments2(geometry, material);
   object.frustumCulled = false;
   const fill = (data, from, source) => {

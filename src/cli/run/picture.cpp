@@ -164,9 +164,11 @@ Drawing Run_picture<D>::draw(const World<D>& world, std::string caption) const {
   }
   draw_bodies(drawing, world, m, share, unit, layer(4));
   if (!catheter.empty()) {
-    const double size = std::min(catheter_size * unit, 0.3 * world.catheter()->spacing());
-    draw_line(drawing, smooth<D>(catheter), size, layer(4), m.catheter);
-    draw_dot(drawing, catheter.front(), 1.6 * size, layer(5), m.catheter);
+    const double radius = world.catheter()->body().radius(0);
+    const double size =
+        radius > 0 ? radius : std::min(catheter_size * unit, 0.3 * world.catheter()->spacing());
+    draw_line(drawing, radius > 0 ? catheter : smooth<D>(catheter), size, layer(4), m.catheter);
+    draw_dot(drawing, catheter.front(), (radius > 0 ? 1 : 1.6) * size, layer(5), m.catheter);
   }
   for (std::size_t kind = 0; kind < marks.size(); ++kind) {
     const double scale = mark_sizes[kind] * unit;

@@ -28,6 +28,8 @@ void add_bodies(const World<D>& world, Recording_scene& scene) {
     const auto count = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
     scene.bodies.push_back({moving.template as<Rod<D>>() != nullptr, count(body.vertex_count()),
                             count(body.edges().size()), count(body.faces().size())});
+    for (std::size_t e = 0; e < body.edges().size(); ++e)
+      scene.bodies.back().radius = std::max(scene.bodies.back().radius, body.radius(e));
     for (const auto& [u, v] : body.edges()) scene.edges.push_back({first + u, first + v});
     for (const auto& [u, v, w] : body.faces()) scene.faces.push_back({first + u, first + v, first + w});
     first += count(body.vertex_count());

@@ -32,11 +32,13 @@ std::size_t corner_count(const std::vector<std::vector<std::uint32_t>>& loops) {
 
 ordered_json head_of(const Recording_scene& scene) {
   ordered_json bodies = ordered_json::array();
-  for (const Recording_body& body : scene.bodies)
+  for (const Recording_body& body : scene.bodies) {
     bodies.push_back({{"kind", body.is_catheter ? "catheter" : "body"},
                       {"vertices", body.vertices},
                       {"edges", body.edges},
                       {"faces", body.faces}});
+    if (body.radius > 0) bodies.back()["radius"] = body.radius;
+  }
   return {{"dimension", scene.dimension},
           {"time_step", scene.time_step},
           {"steps", scene.steps},

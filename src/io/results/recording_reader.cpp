@@ -65,7 +65,8 @@ class Motion_parser {
     scene_.walls_change = head.value("walls_change", false);
     for (const nlohmann::json& body : head.at("bodies"))
       scene_.bodies.push_back({body.at("kind") == "catheter", counted(body.at("vertices")),
-                               counted(body.at("edges")), counted(body.at("faces"))});
+                               counted(body.at("edges")), counted(body.at("faces")),
+                               body.value("radius", 0.0)});
     if ((scene_.dimension != 2 && scene_.dimension != 3) || scene_.every == 0 ||
         counted(head.at("records")) != frame_count())
       damaged("the counts of its head do not fit each other");

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Scenes whose bodies and catheters have a radius.
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
 #include <string>
 
 #include "cli/program.h"
@@ -26,6 +30,46 @@ TEST_F(RunRadius, ABodyAndACatheterKeepTheirDistance) {
   // The rod falls on the floor, at the distance of its radius.
   const auto contacts = read_table(path("out/contacts.csv"));
   ASSERT_GT(contacts.size(), 1u);
+}
+
+/// The facets that are nearer to the catheter than its radius stay open, and the table names what holds them.
+TEST_F(RunRadius, AValveShutsRoundACatheter) {
+  succeed({"run", CELLWALK_SHIPPED_DATA "/valve.json", "-o", "out", "--set", "output.picture=false", "--set",
+           "particles=[]", "--steps", "170"});
+  std::set<std::string> reasons;
+  for (const auto& row : read_table(path("out/changes.csv")))
+    if (row[3] == "refused") {
+      EXPECT_EQ(row[9], "0") << "the catheter";
+      EXPECT_EQ(row[11], "edge");
+      reasons.insert(row[13]);
+    }
+  EXPECT_TRUE(reasons.contains("something is nearer to the facet than its radius"));
+  EXPECT_TRUE(reasons.contains("something lies on both sides of the facet"));
+}
+
+TEST_F(RunRadius, ABeatingVesselPressesACatheter) {
+  const std::string said =
+      succeed({"run", CELLWALK_SHIPPED_DATA "/pulse.json", "-o", "out", "--set", "output.picture=false",
+               "--set", "catheter.radius=0.15", "--set", "particles=[]", "--steps", "60"});
+  EXPECT_NE(said.find("is nearer to one than its radius"), std::string::npos) << said;
+  const auto walls = nlohmann::json::parse(text("out/run.json")).at("walls");
+  EXPECT_GT(walls.at("contacts").get<int>(), 10) << walls;
+}
+
+TEST_F(RunRadius, ARopeFallsOverAStep) {
+  const std::string said =
+      succeed({"run", CELLWALK_SHIPPED_DATA "/rope.json", "-o", "out", "--set", "output.picture=false"});
+  EXPECT_NE(said.find("is nearer to one than its radius"), std::string::npos) << said;
+  // Contacts on the rounded edge of the step have normals between those of its sides.
+  int on_the_edge = 0;
+  const auto contacts = read_table(path("out/contacts.csv"));
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(contacts[0], name) - contacts[0].begin());
+  };
+  const std::size_t nx = column("nx"), nz = column("nz");
+  for (std::size_t i = 1; i < contacts.size(); ++i)
+    on_the_edge += std::stod(contacts[i][nx]) > 0.1 && std::stod(contacts[i][nz]) > 0.1;
+  EXPECT_GT(on_the_edge, 10);
 }
 
 }  // namespace

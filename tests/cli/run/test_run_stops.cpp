@@ -38,7 +38,7 @@ const std::vector<Kind> kinds{
     {"bodies_2d", {data + "/bodies_2d.json"}, 90, 10},
     {"rooms", {data + "/rooms.json", "--set", "catheter.particles=60"}, 90, 10},
     {"catheter", {data + "/catheter.json", "--json", "report.json"}, 60, 7, {"--json", "report.json"}},
-    {"thick_catheter", {data + "/catheter.json", "--set", "catheter.radius=0.05"}, 60, 7},
+    {"thin_catheter", {data + "/catheter.json", "--set", "catheter.radius=0"}, 60, 7},
     {"inlet_to_outlet", {data + "/inlet_to_outlet.json"}, 60, 7},
     {"soft",
      {data + "/soft.json", "--sweep", "faces", "--set", "bodies[0].count=2", "--set", "bodies[1].count=3"},

@@ -32,6 +32,7 @@ inline constexpr std::array decision_names{"none",     "region", "same_cell", "s
 struct Recording_body {
   bool is_catheter = false;
   std::uint32_t vertices = 0, edges = 0, faces = 0;
+  double radius = 0;  ///< the largest of its edges, as which all are shown; 0: they have none
 };
 
 /// The data that do not change in a run. 2D points have z = 0.
