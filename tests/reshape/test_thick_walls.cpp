@@ -201,6 +201,12 @@ class Move_judge {
     const Vector<D> between = on_resident - hit.point;
     const double apart = length(between);
     if (vertices.size() == 2) is_right &= std::abs(apart - r) <= 0x1p-30 * size;
+    // Inside of a wall, it is seen from the side on which the resident is. At the start it may be one side of
+    // a slit whose other side, nearer to the resident, stands still.
+    if (hit.time > 0 && std::ranges::all_of(hit.weights, [](double w) { return w > 1e-9; }))
+      for (const std::uint32_t p : world_.snapshot.view(world_.snapshot.cell_of(hit.facet)).vertices)
+        if (const auto loop = world_.snapshot.loop(hit.facet); std::ranges::find(loop, p) == loop.end())
+          is_right &= dot(world_.snapshot.point(p) - hit.point, hit.normal) > 0;
     is_right &= std::abs(length(hit.normal) - 1) < 0x1p-40;
     is_right &= length(between - apart * hit.normal) <= 0x1p-26 * size;
     is_right &= dot(hit.normal, way) * hit.weights[0] >= -0x1p-30 * length(way);

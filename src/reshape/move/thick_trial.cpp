@@ -40,6 +40,23 @@ bool leads_inside(const Snapshot<D>& snapshot, Half_facet facet, const Point<D>&
   return false;
 }
 
+/// A wall, or one in the same place, seen from the side to which a direction leads; from any if it leads
+/// along the wall.
+template <int D>
+Half_facet facet_towards(const Moving_star<D>& star, const Moving_wall<D>& wall, const Point<D>& place,
+                         const Vector<D>& direction) {
+  const Snapshot<D>& snapshot = star.snapshot();
+  const auto& corners = wall.swept.corners();
+  for (const Moving_wall<D>& other : star.walls()) {
+    if (!std::is_permutation(corners.begin(), corners.end(), other.swept.corners().begin())) continue;
+    for (const Half_facet f : {other.facet, snapshot.opposite(other.facet)})
+      if (f != Half_facet::none && !snapshot.is_solid(snapshot.cell_of(f)) &&
+          leads_inside(snapshot, f, place, direction))
+        return f;
+  }
+  return wall.facet;
+}
+
 /// A wall that is in the way of a member.
 template <int D>
 struct Blocked {
@@ -59,13 +76,7 @@ Wall_hit<D> to_hit(const Blocked<D>& first, const Moving_star<D>& star, const Re
   hit.kind = meeting.of_wall.size == 1             ? Contact_kind::vertex
              : D == 3 && meeting.of_wall.size == 2 ? Contact_kind::edge
                                                    : Contact_kind::facet;
-  // The wall seen from the side on which the resident is.
-  const Snapshot<D>& snapshot = star.snapshot();
-  hit.facet = wall->facet;
-  const Half_facet other = snapshot.opposite(hit.facet);
-  if (!leads_inside(snapshot, hit.facet, hit.point, hit.normal) && other != Half_facet::none &&
-      !snapshot.is_solid(snapshot.cell_of(other)))
-    hit.facet = other;
+  hit.facet = facet_towards(star, *wall, hit.point, hit.normal);
 
   const auto& corners = wall->swept.corners();
   std::vector<Point<D>> now{point_on<D>(corners[0], corners[1], hit.time)};
