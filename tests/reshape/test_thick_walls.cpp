@@ -201,8 +201,8 @@ class Move_judge {
     const Vector<D> between = on_resident - hit.point;
     const double apart = length(between);
     if (vertices.size() == 2) is_right &= std::abs(apart - r) <= 0x1p-30 * size;
-    // Inside of a wall, it is seen from the side on which the resident is. At the start it may be one side of
-    // a slit whose other side, nearer to the resident, stands still.
+    // Inside of a wall, it is seen from the side on which the resident is. At the start it may be the other
+    // side of a slit, whose walls are in one place but have different corners.
     if (hit.time > 0 && std::ranges::all_of(hit.weights, [](double w) { return w > 1e-9; }))
       for (const std::uint32_t p : world_.snapshot.view(world_.snapshot.cell_of(hit.facet)).vertices)
         if (const auto loop = world_.snapshot.loop(hit.facet); std::ranges::find(loop, p) == loop.end())
