@@ -80,7 +80,7 @@ class Near_time_search {
     const Ring r(motion.radius);
     square_of_radius_ = Ring(r * r);
     for (const auto& corner : {motion.q, motion.third})
-      if (corner) sides_.push_back({from_p(*corner), *corner, vertex_feature(sides_.size() + 1)});
+      if (corner) sides_.push_back({from_p(*corner), *corner, sides_.size() + 1});
   }
 
   Near_time run() {
@@ -104,7 +104,7 @@ class Near_time_search {
   struct Side {
     Moving_vector<D> direction;  ///< p(s) - q
     Point<D> q;
-    Feature at_q;
+    std::size_t corner;  ///< the number of q, see Near_time::of_motion
   };
 
   /// p(s) - x.
@@ -119,11 +119,11 @@ class Near_time_search {
     const Moving_vector<D> u = from_p(wall_[i]);
     const Quadratic r2{Ring(0), Ring(0), square_of_radius_};
     take(moving, vertex, scalar_product<D>(u, u) - r2, {});
-    for (const auto& [d, q, at_q] : sides_) {
+    for (const auto& [d, q, corner] : sides_) {
       // The vertex and the line of the edge; its foot is in the edge, which has a length.
       const Moving_vector<D> g = between<D>(wall_[i], q);
       const Quadratic dd = scalar_product<D>(d, d), gd = scalar_product<D>(g, d);
-      take(edge_feature(0, at_q.corners[0]), vertex,
+      take(edge_feature(0, corner), vertex,
            scalar_product<D>(g, g).constant * dd - squared(gd) - square_of_radius_ * dd,
            {{gd, dd - gd}, {dd}});
     }
@@ -172,12 +172,11 @@ class Near_time_search {
     if constexpr (D == 3) {
       // The lines of both edges; their nearest points, by Cramer's rule, are in the edges, which are not
       // parallel.
-      for (const auto& [d, q, at_q] : sides_) {
+      for (const auto& [d, q, corner] : sides_) {
         const Moving_vector<3> n = vector_product(d, e), g = between<3>(wall_[i], q);
         const Quadratic nn = scalar_product<3>(n, n), of_edge = scalar_product<3>(vector_product(g, e), n),
                         of_side = scalar_product<3>(vector_product(g, d), n);
-        take(edge_feature(0, at_q.corners[0]), side,
-             squared(scalar_product<3>(g, n)) - square_of_radius_ * nn,
+        take(edge_feature(0, corner), side, squared(scalar_product<3>(g, n)) - square_of_radius_ * nn,
              {{of_edge, nn - of_edge, of_side, nn - of_side}, {nn}});
       }
     }

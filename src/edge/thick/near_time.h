@@ -24,8 +24,8 @@ struct Near_time {
 bool is_before(const Near_time& x, const Near_time& y);
 
 /// \param motion of a vertex, an edge or a face
-/// \param wall a point, the two ends of a segment, or but for faces the corners of a wall in order, of which
-///        the first three are not collinear
+/// \param wall a point, the two ends of a segment, or the corners of a wall in order, of which the first
+///        three are not collinear
 /// \pre where the motion starts, it is at least as far from the wall as its radius; the hull of the motion is
 ///        nearer
 /// Cost: ring numbers for each feature of the wall.
