@@ -187,7 +187,7 @@ std::vector<double> Body<D>::clearances(double up_to) const {
 template <int D>
 void Body<D>::set_radii(std::span<const double> radii) {
   state_->check_epoch();
-  detail::Thick_edges<D> thick(radii, state_->topology, vertex_count());
+  detail::Thick_parts<D> thick(radii, state_->topology, vertex_count());
   Body_counts uncounted;
   leave_region(uncounted);
   detail::check_distances(*state_, thick, Error_code::outside);

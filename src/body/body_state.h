@@ -20,7 +20,7 @@
 #include "body/region/region_pool.h"
 #include "body/registration/registration.h"
 #include "body/shape/body_topology.h"
-#include "body/thick/thick_edges.h"
+#include "body/thick/thick_parts.h"
 
 namespace cellwalk::detail {
 
@@ -157,7 +157,7 @@ struct Body_state {
   bool may_have_supporting_walls = false;          ///< some face has; else none
   bool are_faces_swept = true;
   bool is_apart = false;  ///< it is known that no vertex and no edge touches a wall
-  Thick_edges<D> thick;
+  Thick_parts<D> thick;
   Region_cache<D> region;
   Region_pool<D> pool;
   Body_certificates certificates;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The edges of a body that have a radius, and its vertices without edges. Theory: docs/radius.md.
-#ifndef CELLWALK_BODY_THICK_THICK_EDGES_H
-#define CELLWALK_BODY_THICK_THICK_EDGES_H
+#ifndef CELLWALK_BODY_THICK_THICK_PARTS_H
+#define CELLWALK_BODY_THICK_THICK_PARTS_H
 
 #include <cellwalk/body/step.h>
 #include <cellwalk/internal/edge/near_wall_list.h>
@@ -21,13 +21,13 @@ struct Body_state;
 
 /// The radii of a body, and the walls near what has one.
 template <int D>
-class Thick_edges {
+class Thick_parts {
  public:
   /// A body without a radius.
-  Thick_edges() = default;
+  Thick_parts() = default;
   /// \param radii none, one for all edges and vertices, or one for each edge
   /// \throw Error(input) for another number of them, and naming one that is not a finite number of at least 0
-  Thick_edges(std::span<const double> radii, const Body_topology& topology, std::size_t vertices);
+  Thick_parts(std::span<const double> radii, const Body_topology& topology, std::size_t vertices);
 
   /// True if nothing has a radius.
   bool are_none() const { return radii_.empty() && of_vertices_ == 0; }
@@ -51,13 +51,13 @@ class Thick_edges {
   std::vector<Near_wall_list<D>> near_edges_, near_vertices_;
 };
 
-extern template class Thick_edges<2>;
-extern template class Thick_edges<3>;
+extern template class Thick_parts<2>;
+extern template class Thick_parts<3>;
 
 /// Tests that each edge and vertex with a radius is at least at that distance from every wall: invariant I4.
 /// \throw Error(code) naming the first that is not, and its distance
 template <int D>
-void check_distances(const Body_state<D>& body, const Thick_edges<D>& thick, Error_code code);
+void check_distances(const Body_state<D>& body, const Thick_parts<D>& thick, Error_code code);
 
 /// Refuses what bodies with a radius cannot do.
 /// \throw Error(usage)
@@ -65,4 +65,4 @@ void check_thick_step(const Sweep_options& sweep, Step_rule rule);
 
 }  // namespace cellwalk::detail
 
-#endif  // CELLWALK_BODY_THICK_THICK_EDGES_H
+#endif  // CELLWALK_BODY_THICK_THICK_PARTS_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The moves of vertices whose edges have a radius: by lists of near walls, and by a flood where one is in the
 // way.
-#include "thick_edges.h"
+#include "thick_parts.h"
 
 #include <cellwalk/kernel/error.h>
 
@@ -34,7 +34,7 @@ template <int D>
 }  // namespace
 
 template <int D>
-Thick_edges<D>::Thick_edges(std::span<const double> radii, const Body_topology& topology,
+Thick_parts<D>::Thick_parts(std::span<const double> radii, const Body_topology& topology,
                             std::size_t vertices) {
   const std::size_t edges = topology.edges().size();
   if (radii.size() > 1 && radii.size() != edges)
@@ -56,14 +56,14 @@ Thick_edges<D>::Thick_edges(std::span<const double> radii, const Body_topology& 
 }
 
 template <int D>
-bool Thick_edges<D>::has_thin(const Body_topology& topology, std::uint32_t vertex) const {
+bool Thick_parts<D>::has_thin(const Body_topology& topology, std::uint32_t vertex) const {
   const auto corners = topology.corners_of(vertex);
   if (corners.empty()) return of_vertices_ == 0;
   return std::ranges::any_of(corners, [&](const Corner& corner) { return radii_[corner.edge] == 0; });
 }
 
 template <int D>
-bool Thick_edges<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target) {
+bool Thick_parts<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target) {
   const Point<D>& p = body.positions[vertex];
   const Cell start = body.particles[vertex].cell;
   const auto corners = body.topology.corners_of(vertex);
@@ -78,7 +78,7 @@ bool Thick_edges<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, co
 }
 
 template <int D>
-std::optional<Contact<D>> Thick_edges<D>::first_contact(const Body_state<D>& body, std::uint32_t vertex,
+std::optional<Contact<D>> Thick_parts<D>::first_contact(const Body_state<D>& body, std::uint32_t vertex,
                                                         const Point<D>& target, Edge_counts& counts) const {
   const Point<D>& p = body.positions[vertex];
   const Cell start = body.particles[vertex].cell;
@@ -97,11 +97,11 @@ std::optional<Contact<D>> Thick_edges<D>::first_contact(const Body_state<D>& bod
   return first;
 }
 
-template class Thick_edges<2>;
-template class Thick_edges<3>;
+template class Thick_parts<2>;
+template class Thick_parts<3>;
 
 template <int D>
-void check_distances(const Body_state<D>& body, const Thick_edges<D>& thick, Error_code code) {
+void check_distances(const Body_state<D>& body, const Thick_parts<D>& thick, Error_code code) {
   if (thick.are_none()) return;
   Edge_counts uncounted;
   const auto check = [&](std::uint32_t v, const std::optional<Point<D>>& q, double r, const auto& what) {
@@ -123,8 +123,8 @@ void check_distances(const Body_state<D>& body, const Thick_edges<D>& thick, Err
             [&] { return fmt::format("vertex {} of the body, at {},", v, place(body.positions[v])); });
 }
 
-template void check_distances(const Body_state<2>&, const Thick_edges<2>&, Error_code);
-template void check_distances(const Body_state<3>&, const Thick_edges<3>&, Error_code);
+template void check_distances(const Body_state<2>&, const Thick_parts<2>&, Error_code);
+template void check_distances(const Body_state<3>&, const Thick_parts<3>&, Error_code);
 
 void check_thick_step(const Sweep_options& sweep, Step_rule rule) {
   if (rule == Step_rule::reject_at_target)
