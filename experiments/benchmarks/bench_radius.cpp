@@ -86,7 +86,7 @@ void by_list(benchmark::State& state) {
   std::vector<detail::Near_wall_list<3>> lists(all.size());
   const auto move = [&](std::size_t i) {
     return lists[i].is_free(vessel().snapshot(), all[i].p.cell,
-                            {all[i].p.position, all[i].target, all[i].q.position, radius_of(state)});
+                            {all[i].p.position, all[i].target, all[i].q.position, radius_of(state)}, 0);
   };
   for (std::size_t i = 0; i < all.size(); ++i) move(i);  // makes the list
   for (auto _ : state)
@@ -101,7 +101,7 @@ void list_made(benchmark::State& state) {
     for (const Edge& e : all) {
       detail::Near_wall_list<3> list;
       benchmark::DoNotOptimize(list.is_free(vessel().snapshot(), e.p.cell,
-                                            {e.p.position, e.target, e.q.position, radius_of(state)}));
+                                            {e.p.position, e.target, e.q.position, radius_of(state)}, 0));
     }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }

@@ -67,8 +67,7 @@ template <int D>
 [[gnu::noinline]] void step_out_of_region(detail::Body_state<D>& body, std::span<const Point<D>> targets,
                                           const Body_options& options, Step_report<D>& report,
                                           Body_counts& counts) {
-  if (!body.thick.are_none())
-    detail::check_thick_step(options.sweep, options.rule);  // such a body has no region
+  if (!body.thick.are_none()) detail::check_thick_sweep(options.sweep);  // such a body has no region
   check_targets<D>(targets);
   if (options.sweep.search) [[unlikely]]
     detail::check_search(*options.sweep.search);
@@ -245,7 +244,7 @@ std::optional<Contact<D>> Body<D>::move_vertex(std::uint32_t vertex, const Point
   if (vertex >= vertex_count()) refuse_number("vertex", vertex, vertex_count());
   detail::check_finite(target, "the target of a vertex");
   if (options.sweep.search) detail::check_search(*options.sweep.search);
-  if (!state_->thick.are_none()) detail::check_thick_step(options.sweep, Step_rule::reject);
+  if (!state_->thick.are_none()) detail::check_thick_sweep(options.sweep);
   leave_region(counts);
   return detail::try_move(*state_, state_->scratch, vertex, target, options.sweep, counts);
 }

@@ -68,6 +68,11 @@ double Body_access<D>::radius_of_edge(std::uint32_t edge) const {
 }
 
 template <int D>
+double Body_access<D>::radius_of_face(std::uint32_t face) const {
+  return state_->thick.radius_of_face(state_->topology, face);
+}
+
+template <int D>
 double Body_access<D>::radius_of_vertex(std::uint32_t vertex) const {
   return state_->topology.corners_of(vertex).empty() ? state_->thick.radius_of_vertices() : 0;
 }

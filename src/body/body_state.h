@@ -88,6 +88,10 @@ struct Body_state {
   void check_epoch() const {
     snapshot->check_epoch(epoch, "this body was registered: call Body::register_again(), or make it anew");
   }
+  /// True if an edge or, where they are swept, a face of a vertex has no radius, or the vertex has neither.
+  bool has_thin(std::uint32_t vertex, Sweep sweep) const {
+    return thick.are_none() || thick.has_thin(topology, vertex, sweep);
+  }
   Chain seen_from(const Corner& corner) const;
   void set_chain(std::uint32_t edge, const Chain& chain);
   /// The corners of the facets of a chain, facet after facet.

@@ -22,7 +22,8 @@ Answer<D> answer_thick(const Snapshot<D>& snapshot, const Locator<D>& locator,
   Answer<D> answer;
   answer.status = Motion_status::outside;
   if (!start) return answer;
-  const detail::Thick_result<D> result = detail::sweep_thick<D>(snapshot, start->cell, motion, counts);
+  const detail::Thick_result<D> result =
+      detail::sweep_thick<D>(snapshot, start->cell, motion, counts, detail::part_of(options.sweep));
   answer.contact = result.contact;
   answer.cell = start->cell;
   if (result.starts_close) {

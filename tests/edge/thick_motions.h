@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "edge/slit_worlds.h"
 #include "edge/thick_oracle.h"
@@ -50,15 +51,17 @@ enum class Radius_kind {
 template <int D>
 class Thick_motions {
  public:
-  Thick_motions(const oracle::World<D>& world, const Thick_oracle<D>& oracle, std::uint64_t seed)
-      : oracle_(oracle), source_(world, seed) {}
+  /// \param of_faces the motions are those of faces
+  Thick_motions(const oracle::World<D>& world, const Thick_oracle<D>& oracle, std::uint64_t seed,
+                bool of_faces = false)
+      : oracle_(oracle), source_(world, seed), of_faces_(of_faces) {}
 
-  /// Mostly one whose edge meets no wall.
+  /// Mostly one that starts without meeting a wall.
   Thick_motion<D> next() {
     Thick_motion<D> motion;
     for (int tries = 0; tries < 6; ++tries) {
       motion = without_radius();
-      start_ = root_rounded_down(oracle_.square_to_walls(std::array{motion.p, motion.q}));
+      start_ = root_rounded_down(oracle_.square_to_walls(before(motion)));
       if (start_ > 0) break;
     }
     choose_radius(motion);
@@ -85,7 +88,50 @@ class Thick_motions {
             : kind;
     m.q = shortened(source_.target(other_kind, m.p, m.target));
     if (!generic) make_degenerate(m);
+    if (of_faces_) m.third = shortened(source_.target(other_kind, m.p, m.q));
+    if (of_faces_ && !generic) make_face_degenerate(m);
     return m;
+  }
+
+  void make_face_degenerate(Thick_motion<D>& m) {
+    const Thick_wall<D>& wall = oracle_.walls()[random().below(oracle_.walls().size())];
+    const Vector<D> along = wall.corners[1] - wall.corners[0], across = wall.corners.back() - wall.corners[0];
+    const auto eighths = [&] { return (static_cast<double>(random().below(17)) - 8) / 8; };
+    switch (random().below(8)) {
+      case 0:  // an edge, or less
+        m.third = random().chance(0.5) ? m.q : m.p;
+        break;
+      case 1:  // in the line of p and q
+        m.third = m.q + eighths() * (m.p - m.q);
+        break;
+      case 2:  // the side that stands still is parallel to an edge of a wall
+        m.third = m.q + eighths() * along;
+        break;
+      case 3: {  // or to the wall
+        const double s = eighths(), t = eighths();
+        m.third = m.q + s * along + t * across;
+        break;
+      }
+      case 4: {  // the face is parallel to the wall
+        const double s = eighths(), t = eighths(), u = eighths();
+        m.q = m.p + s * along;
+        m.third = m.p + t * along + u * across;
+        break;
+      }
+      case 5: {  // it becomes so
+        const double s = eighths(), t = eighths(), u = eighths();
+        m.third = m.q + s * along;
+        m.target = m.q + t * along + u * across;
+        break;
+      }
+      case 6: {  // p passes through the line of the side that stands still, in the plane of the face
+        const double s = eighths();
+        m.target = m.p + 2.0 * (m.q + s * (*m.third - m.q) - m.p);
+        break;
+      }
+      default:
+        break;
+    }
   }
 
   void make_degenerate(Thick_motion<D>& m) {
@@ -130,8 +176,8 @@ class Thick_motions {
   void choose_radius(Thick_motion<D>& m) {
     radius_kind_ = static_cast<Radius_kind>(random().below(static_cast<std::uint64_t>(Radius_kind::count)));
     const auto above = [](double x) { return std::nextafter(x, std::numeric_limits<double>::max()); };
-    const auto distance_of = [&](std::initializer_list<Point<D>> points) {
-      return root_rounded_down(oracle_.square_to_walls(std::vector<Point<D>>(points)));
+    const auto distance_of = [&](const std::vector<Point<D>>& points) {
+      return root_rounded_down(oracle_.square_to_walls(points));
     };
     double r = start_;
     switch (radius_kind_) {
@@ -140,13 +186,14 @@ class Thick_motions {
         break;
       case Radius_kind::of_still_end:
         // The nearer end stands still, so that a start at r is one of the still end.
+        if (m.third && distance_of({*m.third}) > distance_of({m.p})) std::swap(m.p, *m.third);
         if (distance_of({m.p}) < distance_of({m.q})) std::swap(m.p, m.q);
         break;
       case Radius_kind::of_sweep:
-        r = distance_of({m.p, m.target, m.q});
+        r = distance_of(swept(m));
         break;
       case Radius_kind::above_sweep:
-        r = above(distance_of({m.p, m.target, m.q}));
+        r = above(distance_of(swept(m)));
         break;
       case Radius_kind::lattice: {
         const auto& corners = oracle_.walls()[random().below(oracle_.walls().size())].corners;
@@ -168,6 +215,7 @@ class Thick_motions {
 
   const Thick_oracle<D>& oracle_;
   oracle::Motion_source<D> source_;
+  bool of_faces_;
   double start_ = 0;
   Radius_kind radius_kind_{};
 };

@@ -92,17 +92,19 @@ auto Thick_oracle<D>::nearer_than(double r, std::span<const Point<D>> points) co
 template <int D>
 bool Thick_oracle<D>::is_free_until(const Fraction& time, const Thick_motion<D>& motion,
                                     const std::vector<const Wall*>& walls) {
-  const Hull<D> swept{to_rational_point(motion.p), at_time(motion.p, motion.target, time),
-                      to_rational_point(motion.q)};
+  Hull<D> swept = to_hull<D>(before(motion));
+  swept.push_back(at_time(motion.p, motion.target, time));
   return std::all_of(walls.begin(), walls.end(), [&](const Wall* wall) {
     return root_is_at_least(shortest_vector<D>(swept, wall->hull).square, motion.radius);
   });
 }
 
 template <int D>
-Shortest<D> Thick_oracle<D>::from_edge_at(const Fraction& time, const Thick_motion<D>& motion,
+Shortest<D> Thick_oracle<D>::from_part_at(const Fraction& time, const Thick_motion<D>& motion,
                                           const Hull<D>& hull) {
-  return shortest_vector<D>({at_time(motion.p, motion.target, time), to_rational_point(motion.q)}, hull);
+  Hull<D> part = to_hull<D>(still_corners(motion));
+  part.push_back(at_time(motion.p, motion.target, time));
+  return shortest_vector<D>(part, hull);
 }
 
 template class Thick_oracle<2>;

@@ -1,23 +1,46 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Moves of edges with a radius, by definition: all walls, no cells, no flood, and distances of hulls in
+// Moves of edges and faces with a radius, by definition: all walls, no cells, no flood, and distances of hulls in
 // rational arithmetic.
 #ifndef CELLWALK_TESTS_EDGE_THICK_ORACLE_H
 #define CELLWALK_TESTS_EDGE_THICK_ORACLE_H
 
 #include <cellwalk/environment/snapshot.h>
 
+#include <optional>
 #include <vector>
 
 #include "kernel/rational_distance.h"
 
 namespace cellwalk::test {
 
-/// An edge with a radius whose end p moves to a target while q stands still.
+/// An edge with a radius whose end p moves to a target while q stands still; or a face, if it has a third
+/// corner.
 template <int D>
 struct Thick_motion {
   Point<D> p, target, q;
   double radius = 0;
+  std::optional<Point<D>> third{};
 };
+
+/// The corners that stand still.
+template <int D>
+std::vector<Point<D>> still_corners(const Thick_motion<D>& m) {
+  return m.third ? std::vector{m.q, *m.third} : std::vector{m.q};
+}
+/// All, before it moves.
+template <int D>
+std::vector<Point<D>> before(const Thick_motion<D>& m) {
+  std::vector<Point<D>> corners = still_corners(m);
+  corners.insert(corners.begin(), m.p);
+  return corners;
+}
+/// Those of what it sweeps.
+template <int D>
+std::vector<Point<D>> swept(const Thick_motion<D>& m) {
+  std::vector<Point<D>> corners = before(m);
+  corners.push_back(m.target);
+  return corners;
+}
 
 /// An impassable facet with a free cell on at least one side.
 template <int D>
@@ -44,12 +67,12 @@ class Thick_oracle {
   /// The walls that are nearer than r to the hull of some points.
   std::vector<const Wall*> nearer_than(double r, std::span<const Point<D>> points) const;
 
-  /// True if none of these walls is nearer than the radius to what the edge has swept at a time.
+  /// True if none of these walls is nearer than the radius to what has been swept at a time.
   static bool is_free_until(const Fraction& time, const Thick_motion<D>& motion,
                             const std::vector<const Wall*>& walls);
 
-  /// The shortest vector from the edge at a time to a hull.
-  static Shortest<D> from_edge_at(const Fraction& time, const Thick_motion<D>& motion, const Hull<D>& hull);
+  /// The shortest vector from the edge or face at a time to a hull.
+  static Shortest<D> from_part_at(const Fraction& time, const Thick_motion<D>& motion, const Hull<D>& hull);
 
  private:
   std::vector<Wall> walls_;

@@ -19,7 +19,7 @@ namespace cellwalk::test {
 /// What is true of a motion that starts in free space.
 template <int D>
 struct Thick_truth {
-  Fraction start_square;  ///< of the distance of the edge to walls before it moves
+  Fraction start_square;  ///< of the distance to walls before the motion
   bool is_close = false;
   std::vector<const Thick_wall<D>*> blocking;  ///< unless it starts too close
 
@@ -38,10 +38,9 @@ class Thick_judge {
 
   Thick_truth<D> truth_of(const Thick_motion<D>& motion) const {
     Thick_truth<D> truth;
-    truth.start_square = oracle_.square_to_walls(std::array{motion.p, motion.q});
+    truth.start_square = oracle_.square_to_walls(before(motion));
     truth.is_close = !root_is_at_least(truth.start_square, motion.radius);
-    if (!truth.is_close)
-      truth.blocking = oracle_.nearer_than(motion.radius, std::array{motion.p, motion.target, motion.q});
+    if (!truth.is_close) truth.blocking = oracle_.nearer_than(motion.radius, swept(motion));
     return truth;
   }
 
@@ -70,8 +69,8 @@ class Thick_judge {
     if (contact.distance != root_rounded_down(truth.start_square)) return "distance of a start too close";
     const double tolerance = 1e-9 * size_of(motion, contact.facet);
     const Hull<D> point{to_rational_point(contact.point)};
-    const double to_edge = root_rounded_down(oracle_.from_edge_at(0, motion, point).square);
-    if (!(std::abs(to_edge - contact.distance) <= tolerance)) return "nearest point too far from the edge";
+    const double to_part = root_rounded_down(oracle_.from_part_at(0, motion, point).square);
+    if (!(std::abs(to_part - contact.distance) <= tolerance)) return "nearest point too far from what moves";
     if (!is_on_wall(contact, tolerance)) return "nearest point off the wall";
     return "";
   }
@@ -108,10 +107,10 @@ class Thick_judge {
     const Fraction time(contact.time);
     const double size = size_of(motion, contact.facet), r = motion.radius;
     const Hull<D> point{to_rational_point(contact.point)};
-    const double to_edge = root_rounded_down(oracle_.from_edge_at(time, motion, point).square);
+    const double to_part = root_rounded_down(oracle_.from_part_at(time, motion, point).square);
     // Feet of nearly parallel edges are off by the root of an ulp. It shows where r is hardly more.
     const double off = 1e-9 * r + (r > 1e-6 * size ? 1e-13 : 1e-7) * size;
-    if (!(std::abs(to_edge - r) <= off)) return "contact not at r from the edge";
+    if (!(std::abs(to_part - r) <= off)) return "contact not at r from what moves";
     if (!is_on_wall(contact, 1e-12 * size)) return "contact off its feature of the wall";
     if (contact.body == Body_feature::vertex) {
       const Hull<D> p{at_time(motion.p, motion.target, time)};
@@ -124,15 +123,15 @@ class Thick_judge {
     // Shortest vectors of sets that differ by some ulp differ by the root of that.
     const double tolerance = std::max(1e-6, 4 * std::sqrt(1e-16 * size / r));
     if (tolerance > 1e-3) return "";
-    const auto z = oracle_.from_edge_at(time, motion, hull_of(contact.facet)).vector;
-    // The foot on the edge.
+    const auto z = oracle_.from_part_at(time, motion, hull_of(contact.facet)).vector;
+    // The foot on what moves.
     Hull<D> foot = point;
     Vector<D> away;
     for (std::size_t k = 0; k < D; ++k) {
       foot[0][k] -= z[k];
       away[k] = -to_double(z[k] / Fraction(r));
     }
-    const double to_foot = root_rounded_down(oracle_.from_edge_at(time, motion, foot).square);
+    const double to_foot = root_rounded_down(oracle_.from_part_at(time, motion, foot).square);
     if (!(to_foot <= tolerance * r + 1e-9 * size)) return "contact not where the wall is nearest";
     return length(normalized(away) - contact.normal) <= tolerance ? "" : "normal";
   }
@@ -161,7 +160,7 @@ class Thick_judge {
   double size_of(const Thick_motion<D>& motion, Half_facet f) const {
     double size = 0;
     std::vector<Point<D>> points = corners_of(f);
-    points.insert(points.end(), {motion.p, motion.target, motion.q});
+    for (const Point<D>& x : swept(motion)) points.push_back(x);
     for (const Point<D>& x : points)
       for (const double c : x) size = std::max(size, std::abs(c));
     return size;

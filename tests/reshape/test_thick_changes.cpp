@@ -86,12 +86,9 @@ template <int D>
 std::vector<Resident> nearer_to(const Toggle_world<D>& world, const Hull<D>& hull) {
   std::vector<Resident> result;
   for (std::uint32_t b = 0; b < world.bodies.size(); ++b)
-    for (std::uint32_t e = 0; e < world.bodies[b]->edges().size(); ++e) {
-      const auto& [u, v] = world.bodies[b]->edges()[e];
-      const std::array edge{world.bodies[b]->positions()[u], world.bodies[b]->positions()[v]};
-      if (!root_is_at_least(shortest_vector<D>(to_hull<D>(edge), hull).square, world.bodies[b]->radius(e)))
-        result.push_back({false, b, Body_feature::edge, e});
-    }
+    for (const Thick_part<D>& part : thick_parts(*world.bodies[b]))
+      if (!root_is_at_least(shortest_vector<D>(to_hull<D>(part.corners), hull).square, part.radius))
+        result.push_back({false, b, part.feature, part.number});
   return result;
 }
 
@@ -103,10 +100,10 @@ void judge_shrinking(const Toggle_world<D>& world, const Hull<D>& hull, Toggled&
   tally.missed += outcome.is_made && !expected.empty();
   tally.false_holds += !outcome.is_made && expected.empty();
   // Vertices may be named as well.
-  std::vector<Resident> edges;
-  std::ranges::copy_if(outcome.held_by, std::back_inserter(edges),
-                       [](const Resident& r) { return r.feature == Body_feature::edge; });
-  tally.wrong_holders += !outcome.is_made && edges != expected;
+  std::vector<Resident> parts;
+  std::ranges::copy_if(outcome.held_by, std::back_inserter(parts),
+                       [](const Resident& r) { return r.feature != Body_feature::vertex; });
+  tally.wrong_holders += !outcome.is_made && parts != expected;
 }
 
 template <int D>

@@ -72,7 +72,7 @@ TEST(ThickWalls, AWallTurnsAboutASideAtTheRadius) {
 }
 
 struct Tally {
-  int moves = 0, reached = 0, contacts = 0, others = 0, by_faces = 0, at_once = 0;
+  int moves = 0, reached = 0, contacts = 0, others = 0, by_faces = 0, of_faces = 0, at_once = 0;
   int missed = 0, false_blocks = 0, wrong_times = 0, wrong_places = 0, too_near = 0;
   int wrong() const { return missed + false_blocks + wrong_times + wrong_places + too_near; }
 };
@@ -87,6 +87,9 @@ class Move_judge {
     from_ = world_.snapshot.point(v);
     target_ = target;
     find_walls(v);
+    parts_.clear();
+    for (const auto& body : world_.bodies)
+      for (const Thick_part<D>& part : thick_parts(*body)) parts_.push_back(part);
     const bool is_blocked = !is_free_until(Fraction(1));
     const Vertex_result<D> result = reshaping.move(v, target);
     ++tally_.moves;
@@ -138,24 +141,14 @@ class Move_judge {
     return hull;
   }
 
-  template <class Use>
-  void for_each_edge(Use use) const {
-    for (const auto& body : world_.bodies)
-      for (std::size_t e = 0; e < body->edges().size(); ++e) {
-        const auto& [u, v] = body->edges()[e];
-        use(std::array{body->positions()[u], body->positions()[v]}, body->radius(e));
-      }
-  }
-
   bool is_free_until(const Fraction& time) const {
-    bool is_free = true;
     for (const Wall& wall : walls_) {
       const Hull<D> hull = hull_of(wall, time);
-      for_each_edge([&](const std::array<Point<D>, 2>& edge, double r) {
-        is_free = is_free && root_is_at_least(shortest_vector<D>(hull, to_hull<D>(edge)).square, r);
-      });
+      for (const Thick_part<D>& part : parts_)
+        if (!root_is_at_least(shortest_vector<D>(hull, to_hull<D>(part.corners)).square, part.radius))
+          return false;
     }
-    return is_free;
+    return true;
   }
 
   void judge_time(double time) {
@@ -172,10 +165,14 @@ class Move_judge {
     const Body<D>& body = *world_.bodies[hit.resident.owner];
     std::vector<std::uint32_t> vertices{hit.resident.number};
     double r = 0;
-    if (hit.resident.feature == Body_feature::edge) {
-      const auto& [u, v] = body.edges()[hit.resident.number];
-      vertices = {u, v};
-      r = body.radius(hit.resident.number);
+    for (const Thick_part<D>& part : thick_parts(body)) {
+      if (part.feature != hit.resident.feature || part.number != hit.resident.number) continue;
+      // The weights are those of the corners in their order.
+      if (part.feature == Body_feature::face)
+        vertices.assign(body.faces()[part.number].begin(), body.faces()[part.number].end());
+      else
+        vertices = part.vertices;
+      r = part.radius;
     }
     const Vector<D> way = target_ - from_;
     double size = length(way);
@@ -200,7 +197,7 @@ class Move_judge {
     }
     const Vector<D> between = on_resident - hit.point;
     const double apart = length(between);
-    if (vertices.size() == 2) is_right &= std::abs(apart - r) <= 0x1p-30 * size;
+    if (vertices.size() > 1) is_right &= std::abs(apart - r) <= 0x1p-30 * size;
     // Inside of a wall, it is seen from the side on which the resident is. At the start it may be the other
     // side of a slit, whose walls are in one place but have different corners.
     if (hit.time > 0 && std::ranges::all_of(hit.weights, [](double w) { return w > 1e-9; }))
@@ -213,12 +210,14 @@ class Move_judge {
     is_right &= std::abs(std::accumulate(hit.weights.begin(), hit.weights.end(), -1.0)) < 1e-9;
     tally_.wrong_places += !is_right;
     tally_.by_faces += hit.kind == Contact_kind::facet;
+    tally_.of_faces += hit.body == Body_feature::face;
   }
 
   World& world_;
   Tally& tally_;
   Point<D> from_, target_;
   std::vector<Wall> walls_;
+  std::vector<Thick_part<D>> parts_;
 };
 
 /// A vertex of a cell that a body is in.
@@ -259,10 +258,11 @@ void expect_moves_right(bool generic, std::size_t worlds, At_contact at_contact)
   }
   const auto& t = tally;
   std::printf(
-      "%dD: %d moves, %d reached, %d contacts (%d inside of walls, %d at once), %d others; missed %d, false "
+      "%dD: %d moves, %d reached, %d contacts (%d inside of walls, %d of faces, %d at once), %d others; "
+      "missed %d, false "
       "blocks %d, wrong times %d, wrong places %d, too near %d; pushes %d\n",
-      D, t.moves, t.reached, t.contacts, t.by_faces, t.at_once, t.others, t.missed, t.false_blocks,
-      t.wrong_times, t.wrong_places, t.too_near, static_cast<int>(pushes));
+      D, t.moves, t.reached, t.contacts, t.by_faces, t.of_faces, t.at_once, t.others, t.missed,
+      t.false_blocks, t.wrong_times, t.wrong_places, t.too_near, static_cast<int>(pushes));
   if (oracle::is_shortened()) return;
   EXPECT_GT(tally.reached, tally.moves / 10);
   if (at_contact == At_contact::hold) {

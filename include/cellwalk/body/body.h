@@ -28,8 +28,8 @@ class Body_access;
 
 /// A registered body: every vertex in free space (I1), every edge with a chain (I2) and at least at the
 /// distance of its radius from every wall (I4), always. As long as it is moved with Sweep::faces, no wall
-/// pierces a face either (I3, 3D); other sweeps leave its faces alone. Refers to the snapshot, which must
-/// outlive it. Copies are bodies of their own.
+/// pierces a face either (I3, 3D), and faces keep the least radius of their sides; other sweeps leave faces
+/// alone. Refers to the snapshot, which must outlive it. Copies are bodies of their own.
 ///
 /// A body is registered in the environment as it is then. After an edit (Snapshot::epoch()) all that moves,
 /// registers or checks it throws Error(usage), until register_again(); its parts and positions can still be
@@ -42,9 +42,9 @@ class Body {
   /// way of an edge that may pass walls on several sides: if one of its faces lies on another side of them,
   /// the body is refused, although another way would do. Faces in the plane are not looked at.
   /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or is
-  ///        nearer to one than its radius, or the face that a wall pierces, and where; Error(usage) naming an
-  ///        edge or a face that no Body_soup has; Error(input) naming a vertex that is not finite, or a
-  ///        radius that is not a finite number of at least 0
+  ///        nearer to one than its radius, or the face that is or that a wall pierces, and where;
+  ///        Error(usage) naming an edge or a face that no Body_soup has; Error(input) naming a vertex that is
+  ///        not finite, or a radius that is not a finite number of at least 0
   /// Cost: one point location per vertex, one walk per edge, some us per face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Snapshot<D>&& snapshot, const Locator<D>& locator, const Body_soup<D>& soup) = delete;
@@ -84,9 +84,9 @@ class Body {
   /// wall.
   std::vector<double> clearances(double up_to) const;
   /// Changes the radii, in the form of Body_soup::radii. Gives a region free of walls up.
-  /// \throw Error(outside) naming the first edge or vertex that is nearer to a wall than its new radius;
-  ///        Error(input) for a wrong number of them, or one that is not a finite number of at least 0. Then
-  ///        nothing has changed
+  /// \throw Error(outside) naming the first edge, vertex or, if faces are swept, face that is nearer to a
+  ///        wall than its new radius; Error(input) for a wrong number of them, or one that is not a finite
+  ///        number of at least 0. Then nothing has changed
   /// Cost: a flood for each edge through the cells nearer than its radius.
   void set_radii(std::span<const double> radii);
   /// The other ends of the edges of a vertex, ascending.
@@ -96,13 +96,14 @@ class Body {
   /// Moves the vertices one after the other to their targets, as far as walls allow, by options.rule.
   /// Appends to the report.
   ///
-  /// Edges with a radius keep their distance; a contact is where one would come nearer. Faces have no radius
-  /// yet.
+  /// Edges with a radius keep their distance, with Sweep::faces also faces, whose radius is the least of
+  /// their sides'; a contact is where one would come nearer. By Step_rule::reject_at_target and
+  /// Sweep::three_segments only the way of the vertex and its edges at the end count.
   /// \throw Error(usage) unless there is one target a vertex, for Step_rule::reject_at_target if a vertex
   ///        has more than 64 edges, a search of a tolerance not in (0,1] off regions, for a body with a
-  ///        radius all but the rules slide and reject with Sweep::triangle and Touch::pass and without a
-  ///        search, and Sweep::faces after moves that left the faces alone and let a wall pierce one;
-  ///        Error(input) naming a target that is not finite. Then nothing has moved.
+  ///        radius Touch::stop and a search, and Sweep::faces after moves that left the faces alone and let a
+  ///        wall pierce one, or come nearer than its radius; Error(input) naming a target that is not finite.
+  ///        Then nothing has moved.
   /// Cost: reading the coordinates while the body is in a region free of walls; else a walk a vertex and a
   /// sweep an edge, and locating the contacts that are reported or slid along. The first time faces are swept
   /// after moves that left them alone, all are registered. By Step_rule::reject_at_target with Touch::stop
@@ -141,7 +142,7 @@ class Body {
 
   /// Checks I1, I2, I4 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each
   /// edge has a valid chain from cell to cell, no wall is nearer to an edge than its radius, none pierces a
-  /// face.
+  /// face or is nearer to it than its own.
   /// \throw Error(usage) if something is stale, see refresh(); Error(other) naming the first vertex, edge or
   ///        face that violates them
   void validate() const;

@@ -78,7 +78,7 @@ struct Edge_motion {
 /// \pre the locator is that of the snapshot
 /// \throw Error(input) for a point that is not finite, and a radius that is not a finite number of at least
 ///        0; Error(usage) as Locator::locate(), for a search of a tolerance not in (0,1], and for a radius
-///        with Sweep::three_segments, Touch::stop or a search
+///        with Touch::stop or a search
 /// Cost: that of locating two points, finding a chain and sweep_edge(), for each combination of sides.
 /// Thread-safe, if each thread has its own counts.
 template <int D>

@@ -143,8 +143,8 @@ std::unique_ptr<Body_state<D>> registered_again(const Body_state<D>& body, const
     return std::make_unique<Body_state<D>>(*body.snapshot, locator, soup, known, body.certificates);
   };
   auto state = make();
-  check_distances(*state, state->thick, Error_code::outside);
   state->are_faces_swept = body.are_faces_swept;
+  check_distances(*state, state->thick, Error_code::outside);
   if constexpr (D == 3) {
     if (!body.are_faces_swept) return state;
     Face_counts uncounted;

@@ -168,6 +168,8 @@ void take_up_faces(Body_state<3>& body, Body_counts& counts) {
   if (body.are_faces_swept || body.supporting_walls.empty()) return;
   body.check_epoch();
   body.refresh_all(counts);
+  body.thick.forget_faces();
+  if (!body.thick.are_none()) check_face_distances(body, body.thick, Error_code::usage);
   const auto pierced = register_faces(body, counts.faces);
   if (!pierced.empty()) refuse_pierced(body, pierced.front(), Error_code::usage);
 }

@@ -31,7 +31,7 @@ std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& count
 
 /// Before faces are swept after moves that left them alone: registers them all, for which all vertices and
 /// edges are needed.
-/// \throw Error(usage) if a wall pierces one
+/// \throw Error(usage) if a wall pierces one, or is nearer to it than its radius
 void take_up_faces(Body_state<3>& body, Body_counts& counts);
 
 /// Sweeps the faces of a vertex on its way: stores the first contact, or the supporting walls after the move

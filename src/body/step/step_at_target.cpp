@@ -5,6 +5,7 @@
 #include <cellwalk/internal/edge/furthest_move.h>
 #include <cellwalk/internal/edge/sweep_along.h>
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -18,7 +19,7 @@ template <int D>
 [[gnu::noinline]] void Target_step<D>::move_each(std::span<const Point<D>> targets, bool reports_blocked,
                                                  Step_report<D>& report) {
   update_is_apart();
-  const bool in_place = may_be_in_place(body_, sweep_, body_.is_apart);
+  const bool in_place = body_.thick.are_none() && may_be_in_place(body_, sweep_, body_.is_apart);
   for (std::uint32_t v = 0; v < targets.size(); ++v) {
     if (body_.try_move_in_region(v, targets[v], counts_)) continue;
     // Its edges were tested when their other ends moved.
@@ -29,7 +30,7 @@ template <int D>
       continue;
     }
     Tried_move<D> tried = try_to_move(v, targets[v], settled);
-    const Rejected_move<D>& answer = tried.answer;
+    Rejected_move<D>& answer = tried.answer;
     if (!answer.is_vertex_blocked && (answer.edges | answer.swept_edges) == 0) continue;
     counts_.contacts += answer.stays();
     counts_.held += answer.stays();
@@ -37,7 +38,7 @@ template <int D>
       if (answer.stays()) report.contacts.push_back(first_contact(answer, targets[v]));
       continue;
     }
-    report.blocked.push_back(std::move(tried.answer));
+    report.blocked.push_back(std::move(answer));
     locate_wall(report.blocked.back(), tried.met, targets[v]);
   }
 }
@@ -53,24 +54,32 @@ template <int D>
 void Target_step<D>::locate_wall(Rejected_move<D>& answer, std::optional<Contact<D>>& met,
                                  const Point<D>& target) const {
   if (!answer.stays()) return;
-  const std::uint32_t v = answer.vertex;
-  const Corner* edge = answer.is_vertex_blocked ? nullptr : &first_blocked(answer);
-  const Body_feature body = edge ? Body_feature::edge : Body_feature::vertex;
   if (met) {
-    const Point<D>&from = edge ? target : body_.positions[v],
-          &to = edge ? body_.positions[edge->other] : target;
-    locate_contact(snapshot(), from, to, *met);
+    const Point<D>& at = body_.positions[answer.vertex];
+    const bool is_vertex = answer.is_vertex_blocked;
+    locate_contact(snapshot(), is_vertex ? at : target,
+                   is_vertex ? target : body_.positions[first_blocked(answer).other], *met);
     answer.contact = *met;
   }
-  answer.contact->body = body;
-  answer.contact->vertex = v;
-  answer.contact->feature = edge ? edge->edge : v;
+  name_part(answer);
+}
+
+/// Names the vertex that stays, or its first edge that is blocked, as what meets the wall.
+template <int D>
+void Target_step<D>::name_part(Rejected_move<D>& answer) const {
+  answer.contact->body = answer.is_vertex_blocked ? Body_feature::vertex : Body_feature::edge;
+  answer.contact->vertex = answer.vertex;
+  answer.contact->feature = answer.is_vertex_blocked ? answer.vertex : first_blocked(answer).edge;
 }
 
 /// The contact of a vertex that stays.
 template <int D>
-Contact<D> Target_step<D>::first_contact(const Rejected_move<D>& blocked, const Point<D>& target) {
+Contact<D> Target_step<D>::first_contact(Rejected_move<D>& blocked, const Point<D>& target) {
   const std::uint32_t vertex = blocked.vertex;
+  if (!body_.thick.are_none() && blocked.contact) {
+    name_part(blocked);
+    return *blocked.contact;
+  }
   Sweep_options segments = sweep_;
   segments.sweep = Sweep::three_segments;
   Particle<D> to;
@@ -171,6 +180,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   const Particle<D> from = body_.particles[vertex];
   Move_scratch<D>& scratch = body_.scratch;
   const std::uint64_t signs_before = signs();
+  if (!body_.thick.are_none() && is_way_close(vertex, target, tried)) return tried;
   if (settled.to) {
     to = *settled.to;
     had_choice = false;
@@ -195,7 +205,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   if (sweep_.touch == Touch::stop && !is_apart)
     if (const auto touch =
             closed_meeting<D>(snapshot(), from.cell, {from.position, target, from.position}, counts_.edges)) {
-      answer.is_vertex_blocked = tried.keep_touch(touch);
+      answer.is_vertex_blocked = tried.keep_located(touch);
       return tried;
     }
   const Vertex_path<D> path{from, to, scratch.visited, scratch.crossed, false, is_apart};
@@ -210,6 +220,8 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
     moved.is_stale = is_inside && !body_.region.is_outside(corners[i].other);
     if (moved.is_stale) continue;
     body_.refresh_edge(corners[i].edge, counts_);
+    if (!body_.thick.are_none()) test_end_of_thick(vertex, i, to, tried);
+    if (answer.edges >> i & 1) continue;
     const bool is_settled = settled.to && i == settled.free_edges;
     Relink_answer relinked = is_settled ? settled.next_edge : Relink_answer::open;
     if (may_confirm && !is_settled) {
@@ -223,6 +235,44 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   }
   in_place.add_to(counts_.edges);
   return tried;
+}
+
+/// True if a wall is nearer to the way of a vertex than the radius of one of its edges, or its own.
+template <int D>
+bool Target_step<D>::is_way_close(std::uint32_t vertex, const Point<D>& target, Tried_move<D>& tried) {
+  const auto corners = body_.topology.corners_of(vertex);
+  const auto is_free = [&](const Corner& corner) {
+    return body_.thick.is_edge_free(body_, vertex, corner, target, Swept_part::way);
+  };
+  if (corners.empty() ? body_.thick.is_vertex_free(body_, vertex, target)
+                      : std::ranges::all_of(corners, is_free))
+    return false;
+  const Thick_motion<D> way{
+      body_.positions[vertex], target, {}, body_.thick.radius_at(body_.topology, vertex)};
+  const auto met = sweep_thick<D>(snapshot(), body_.particles[vertex].cell, way, counts_.edges).contact;
+  tried.keep_located(met);
+  return tried.answer.is_vertex_blocked = true;
+}
+
+/// Whether an edge with a radius, if this one has one, keeps its distance where the vertex goes and, where
+/// triangles are swept, on the way.
+/// \param to where the vertex goes, on a way that is free
+template <int D>
+void Target_step<D>::test_end_of_thick(std::uint32_t vertex, std::size_t number, const Particle<D>& to,
+                                       Tried_move<D>& tried) {
+  const Corner& corner = body_.topology.corners_of(vertex)[number];
+  const std::uint64_t bit = std::uint64_t{1} << number;
+  const auto is_free = [&](Swept_part part) {
+    return body_.thick.is_edge_free(body_, vertex, corner, to.position, part);
+  };
+  if (sweeps() && !is_free(Swept_part::all)) tried.answer.swept_edges |= bit;
+  if (is_free(Swept_part::end)) return;
+  tried.answer.edges |= bit;
+  // A particle as thick as the edge meets the wall as it goes along it.
+  const Thick_motion<D> along{
+      to.position, body_.positions[corner.other], {}, body_.thick.radius(corner.edge)};
+  const auto met = sweep_thick<D>(snapshot(), to.cell, along, counts_.edges).contact;
+  tried.keep_located(met);
 }
 
 /// True if the edge of a corner is free while its vertex goes its way: then its chain is known.
@@ -264,8 +314,8 @@ bool Target_step<D>::meets_at_end(const Vertex_path<D>& path, std::size_t number
   if (stops && !is_crossed) {
     const bool is_plain = path.is_apart && signs() == signs_before;
     if (anew.contact || !is_plain) {
-      if (tried.keep_touch(closed_meeting<D>(snapshot(), path.to.cell,
-                                             {path.to.position, q.position, path.to.position}, edges)))
+      if (tried.keep_located(closed_meeting<D>(snapshot(), path.to.cell,
+                                               {path.to.position, q.position, path.to.position}, edges)))
         return true;
       anew = find_any_chain(snapshot(), path.to, q, edges.walk);
     }

@@ -17,8 +17,8 @@
 
 namespace cellwalk::detail {
 
-/// The outcome of the move of a vertex. The wall in the way is one that is touched, `answer.contact`, or one
-/// that a walk met and that is not located yet.
+/// The outcome of the move of a vertex. The wall in the way is one that is touched or nearer than a radius,
+/// `answer.contact`, or one that a walk met and that is not located yet.
 template <int D>
 struct Tried_move {
   Rejected_move<D> answer;
@@ -31,9 +31,9 @@ struct Tried_move {
     if (wall && !met && !answer.contact) met = wall;
     return wall.has_value();
   }
-  bool keep_touch(const std::optional<Contact<D>>& touch) {
-    if (touch && !met && !answer.contact) answer.contact = touch;
-    return touch.has_value();
+  bool keep_located(const std::optional<Contact<D>>& contact) {
+    if (contact && !met && !answer.contact) answer.contact = contact;
+    return contact.has_value();
   }
 };
 
@@ -58,10 +58,14 @@ class Target_step {
                              Sides_taken* choices, Particle<D>& to, bool& had_choice);
   bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, bool is_blocked,
                     Moved_chain<D>& moved, Tried_move<D>& tried);
+  bool is_way_close(std::uint32_t vertex, const Point<D>& target, Tried_move<D>& tried);
+  void test_end_of_thick(std::uint32_t vertex, std::size_t number, const Particle<D>& to,
+                         Tried_move<D>& tried);
   bool is_swept_free(const Vertex_path<D>& path, const Corner& corner, Moved_chain<D>& moved);
   const Corner& first_blocked(const Rejected_move<D>& blocked) const;
   void locate_wall(Rejected_move<D>& answer, std::optional<Contact<D>>& met, const Point<D>& target) const;
-  Contact<D> first_contact(const Rejected_move<D>& blocked, const Point<D>& target);
+  void name_part(Rejected_move<D>& answer) const;
+  Contact<D> first_contact(Rejected_move<D>& blocked, const Point<D>& target);
 
   Body_state<D>& body_;
   const Sweep_options& sweep_;

@@ -109,21 +109,22 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   if (any && first) return first;
   scratch.supporting_walls.clear();
   if constexpr (D == 3)
-    if (options.sweep == Sweep::faces) sweep_faces(body, scratch, vertex, path, first, counts.faces);
+    if (options.sweep == Sweep::faces && body.has_thin(vertex, options.sweep))
+      sweep_faces(body, scratch, vertex, path, first, counts.faces);
   return first;
 }
 
-/// The first contact of a vertex if one of its edges with a radius is in the way. If none is, those without
-/// one are left.
+/// The first contact of a vertex if one of its edges or faces with a radius is in the way. If none is, those
+/// without one are left.
 template <int D>
 std::optional<Contact<D>> contact_of_thick(Body_state<D>& body, Move_scratch<D>& scratch,
                                            std::uint32_t vertex, const Point<D>& target,
                                            const Sweep_options& options, Body_counts& counts, bool any) {
-  if (body.thick.is_free(body, vertex, target)) return {};
+  if (body.thick.is_free(body, vertex, target, options.sweep)) return {};
   if (any) return Contact<D>{};
-  auto first = body.thick.first_contact(body, vertex, target, counts.edges);
+  auto first = body.thick.first_contact(body, vertex, target, options.sweep, counts.edges);
   if (!first) refuse_uncertified();
-  if (body.thick.has_thin(body.topology, vertex)) {
+  if (body.has_thin(vertex, options.sweep)) {
     Particle<D> to;
     const auto thin = find_contact(body, scratch, vertex, target, options, counts, any, to);
     if (thin && meets_before(*thin, *first)) first = thin;

@@ -31,6 +31,25 @@ template <int D>
                           body.snapshot->index(body.snapshot->cell_of(nearest.facet)), radius));
 }
 
+/// \param motion of a part of the body that stays where it is
+/// \param what gives its name
+template <int D>
+void check_distance(const Body_state<D>& body, std::uint32_t vertex, const Thick_motion<D>& motion,
+                    const auto& what, Error_code code) {
+  if (motion.radius == 0) return;
+  Edge_counts uncounted;
+  const auto result = sweep_thick<D>(*body.snapshot, body.particles[vertex].cell, motion, uncounted);
+  if (result.starts_close) refuse_close(body, what(), *result.contact, motion.radius, code);
+}
+
+/// The motion of a face at one of its corners.
+Thick_motion<3> motion_of_face(const Body_state<3>& body, const Face_corner& at, const Point<3>& target,
+                               double radius) {
+  const auto& corners = body.topology.faces()[at.face];
+  const auto corner = [&](std::size_t k) { return body.positions[corners[(at.place + k) % 3]]; };
+  return {corner(0), target, corner(1), radius, corner(2)};
+}
+
 }  // namespace
 
 template <int D>
@@ -56,44 +75,97 @@ Thick_parts<D>::Thick_parts(std::span<const double> radii, const Body_topology& 
 }
 
 template <int D>
-bool Thick_parts<D>::has_thin(const Body_topology& topology, std::uint32_t vertex) const {
-  const auto corners = topology.corners_of(vertex);
-  if (corners.empty()) return of_vertices_ == 0;
-  return std::ranges::any_of(corners, [&](const Corner& corner) { return radii_[corner.edge] == 0; });
+double Thick_parts<D>::radius_of_face(const Body_topology& topology, std::uint32_t face) const {
+  const auto& [a, b, c] = topology.sides(face);
+  return std::min({radius(a), radius(b), radius(c)});
 }
 
 template <int D>
-bool Thick_parts<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target) {
-  const Point<D>& p = body.positions[vertex];
-  const Cell start = body.particles[vertex].cell;
+double Thick_parts<D>::radius_at(const Body_topology& topology, std::uint32_t vertex) const {
+  const auto corners = topology.corners_of(vertex);
+  if (corners.empty()) return of_vertices_;
+  double largest = 0;
+  for (const Corner& corner : corners) largest = std::max(largest, radius(corner.edge));
+  return largest;
+}
+
+template <int D>
+bool Thick_parts<D>::has_thin(const Body_topology& topology, std::uint32_t vertex, Sweep sweep) const {
+  const auto corners = topology.corners_of(vertex);
+  if (corners.empty()) return of_vertices_ == 0;
+  if (std::ranges::any_of(corners, [&](const Corner& corner) { return radius(corner.edge) == 0; }))
+    return true;
+  return sweep == Sweep::faces && std::ranges::any_of(topology.face_corners_of(vertex), [&](const auto& of) {
+           return radius_of_face(topology, of.face) == 0;
+         });
+}
+
+template <int D>
+bool Thick_parts<D>::is_edge_free(const Body_state<D>& body, std::uint32_t vertex, const Corner& corner,
+                                  const Point<D>& target, Swept_part part) {
+  const double r = radius(corner.edge);
+  return r == 0 ||
+         near_edges_[corner.edge].is_free(*body.snapshot, body.particles[vertex].cell,
+                                          {body.positions[vertex], target, body.positions[corner.other], r},
+                                          corner.is_reversed ? 1 : 0, part);
+}
+
+template <int D>
+bool Thick_parts<D>::is_vertex_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target) {
+  return of_vertices_ == 0 ||
+         near_vertices_[vertex].is_free(*body.snapshot, body.particles[vertex].cell,
+                                        {body.positions[vertex], target, {}, of_vertices_}, 0);
+}
+
+template <int D>
+bool Thick_parts<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
+                             Sweep sweep) {
   const auto corners = body.topology.corners_of(vertex);
-  if (corners.empty())
-    return of_vertices_ == 0 ||
-           near_vertices_[vertex].is_free(*body.snapshot, start, {p, target, p, of_vertices_});
-  return std::ranges::all_of(corners, [&](const Corner& corner) {
-    const double r = radii_[corner.edge];
-    return r == 0 || near_edges_[corner.edge].is_free(*body.snapshot, start,
-                                                      {p, target, body.positions[corner.other], r});
+  if (corners.empty()) return is_vertex_free(body, vertex, target);
+  const auto is_edge = [&](const Corner& corner) {
+    return is_edge_free(body, vertex, corner, target, part_of(sweep));
+  };
+  if (!std::ranges::all_of(corners, is_edge)) return false;
+  if constexpr (D == 3)
+    if (sweep == Sweep::faces) return are_faces_free(body, vertex, target);
+  return true;
+}
+
+template <int D>
+bool Thick_parts<D>::are_faces_free(const Body_state<D>& body, std::uint32_t vertex,
+                                    const Point<D>& target) requires(D == 3) {
+  near_faces_.resize(body.topology.faces().size());
+  return std::ranges::all_of(body.topology.face_corners_of(vertex), [&](const Face_corner& at) {
+    const double r = radius_of_face(body.topology, at.face);
+    return r == 0 || near_faces_[at.face].is_free(*body.snapshot, body.particles[vertex].cell,
+                                                  motion_of_face(body, at, target, r), at.place);
   });
 }
 
 template <int D>
 std::optional<Contact<D>> Thick_parts<D>::first_contact(const Body_state<D>& body, std::uint32_t vertex,
-                                                        const Point<D>& target, Edge_counts& counts) const {
+                                                        const Point<D>& target, Sweep sweep,
+                                                        Edge_counts& counts) const {
   const Point<D>& p = body.positions[vertex];
   const Cell start = body.particles[vertex].cell;
   std::optional<Contact<D>> first;
-  const auto look_at = [&](const std::optional<Point<D>>& q, double r, std::uint32_t edge) {
-    auto met = sweep_thick<D>(*body.snapshot, start, {p, target, q, r}, counts).contact;
+  const auto look_at = [&](const Thick_motion<D>& motion, std::uint32_t part) {
+    if (motion.radius == 0) return;
+    auto met = sweep_thick<D>(*body.snapshot, start, motion, counts, part_of(sweep)).contact;
     if (!met || (first && !meets_before(*met, *first))) return;
+    if (motion.third) met->body = Body_feature::face;  // else its vertex or edge would have met it as well
     first = met;
     first->vertex = vertex;
-    first->feature = met->body == Body_feature::edge ? edge : vertex;
+    first->feature = met->body == Body_feature::vertex ? vertex : part;
   };
   const auto corners = body.topology.corners_of(vertex);
-  if (corners.empty() && of_vertices_ > 0) look_at({}, of_vertices_, 0);
+  if (corners.empty()) look_at({p, target, {}, of_vertices_}, 0);
   for (const Corner& corner : corners)
-    if (const double r = radii_[corner.edge]; r > 0) look_at(body.positions[corner.other], r, corner.edge);
+    look_at({p, target, body.positions[corner.other], radius(corner.edge)}, corner.edge);
+  if constexpr (D == 3)
+    if (sweep == Sweep::faces)
+      for (const Face_corner& at : body.topology.face_corners_of(vertex))
+        look_at(motion_of_face(body, at, target, radius_of_face(body.topology, at.face)), at.face);
   return first;
 }
 
@@ -103,12 +175,9 @@ template class Thick_parts<3>;
 template <int D>
 void check_distances(const Body_state<D>& body, const Thick_parts<D>& thick, Error_code code) {
   if (thick.are_none()) return;
-  Edge_counts uncounted;
   const auto check = [&](std::uint32_t v, const std::optional<Point<D>>& q, double r, const auto& what) {
-    if (r == 0) return;
     const Point<D>& p = body.positions[v];
-    const auto result = sweep_thick<D>(*body.snapshot, body.particles[v].cell, {p, p, q, r}, uncounted);
-    if (result.starts_close) refuse_close(body, what(), *result.contact, r, code);
+    check_distance<D>(body, v, {p, p, q, r}, what, code);
   };
   for (std::uint32_t e = 0; e < body.topology.edges().size(); ++e) {
     const auto [u, v] = body.topology.edges()[e];
@@ -121,18 +190,24 @@ void check_distances(const Body_state<D>& body, const Thick_parts<D>& thick, Err
     if (body.topology.corners_of(v).empty())
       check(v, {}, thick.radius_of_vertices(),
             [&] { return fmt::format("vertex {} of the body, at {},", v, place(body.positions[v])); });
+  if constexpr (D == 3)
+    if (body.are_faces_swept) check_face_distances(body, thick, code);
+}
+
+void check_face_distances(const Body_state<3>& body, const Thick_parts<3>& thick, Error_code code) {
+  for (std::uint32_t f = 0; f < body.topology.faces().size(); ++f) {
+    const Point<3>& p = body.positions[body.topology.faces()[f][0]];
+    const auto what = [&] {
+      const auto& [u, v, w] = body.topology.faces()[f];
+      return fmt::format("face {} of the body, with vertices {} at {}, {} at {} and {} at {},", f, u,
+                         place(body.positions[u]), v, place(body.positions[v]), w, place(body.positions[w]));
+    };
+    check_distance<3>(body, body.topology.faces()[f][0],
+                      motion_of_face(body, {f, 0}, p, thick.radius_of_face(body.topology, f)), what, code);
+  }
 }
 
 template void check_distances(const Body_state<2>&, const Thick_parts<2>&, Error_code);
 template void check_distances(const Body_state<3>&, const Thick_parts<3>&, Error_code);
-
-void check_thick_step(const Sweep_options& sweep, Step_rule rule) {
-  if (rule == Step_rule::reject_at_target)
-    throw Error(Error_code::usage,
-                "the rule reject_at_target: not for bodies with a radius; take slide or reject");
-  if (sweep.sweep == Sweep::faces)
-    throw Error(Error_code::usage, "sweep faces: not for bodies with a radius; take triangle");
-  check_thick_sweep(sweep);
-}
 
 }  // namespace cellwalk::detail

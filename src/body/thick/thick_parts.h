@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The edges of a body that have a radius, and its vertices without edges. Theory: docs/radius.md.
+// The edges and faces of a body that have a radius, and its vertices without edges. Theory: docs/radius.md.
 #ifndef CELLWALK_BODY_THICK_THICK_PARTS_H
 #define CELLWALK_BODY_THICK_THICK_PARTS_H
 
@@ -36,32 +36,50 @@ class Thick_parts {
   double radius_of_vertices() const { return of_vertices_; }
   std::span<const double> radii() const { return radii_; }
 
-  /// Whether a vertex can move to a target, with all its edges that have a radius.
+  /// The least of its sides, see Body_topology::sides().
+  double radius_of_face(const Body_topology& topology, std::uint32_t face) const;
+
+  /// Whether a vertex can move to a target, with all its edges that have a radius and, for Sweep::faces, its
+  /// faces.
   /// \pre nothing is stale; where they are, they are at least at that distance from every wall
-  bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target);
+  bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, Sweep sweep);
   /// Their first contact; none if the vertex can move.
   std::optional<Contact<D>> first_contact(const Body_state<D>& body, std::uint32_t vertex,
-                                          const Point<D>& target, Edge_counts& counts) const;
-  /// True if some edge of a vertex has no radius, or the vertex has neither.
-  bool has_thin(const Body_topology& topology, std::uint32_t vertex) const;
+                                          const Point<D>& target, Sweep sweep, Edge_counts& counts) const;
+  /// Whether an edge of a vertex, if it has a radius, can do a part of such a move.
+  /// \pre as is_free()
+  bool is_edge_free(const Body_state<D>& body, std::uint32_t vertex, const Corner& corner,
+                    const Point<D>& target, Swept_part part);
+  /// Whether a vertex without edges, if it has a radius, can move.
+  bool is_vertex_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target);
+  /// The largest radius of its edges, or that of a vertex without edges.
+  double radius_at(const Body_topology& topology, std::uint32_t vertex) const;
+  /// True if some edge or, for Sweep::faces, face of a vertex has no radius, or the vertex has neither.
+  bool has_thin(const Body_topology& topology, std::uint32_t vertex, Sweep sweep) const;
+  /// Faces were left alone: their lists of walls are void.
+  void forget_faces() { near_faces_.clear(); }
 
  private:
+  bool are_faces_free(const Body_state<D>& body, std::uint32_t vertex,
+                      const Point<D>& target) requires(D == 3);
+
   std::vector<double> radii_;  ///< of edges; empty if all are 0
   double of_vertices_ = 0;
   std::vector<Near_wall_list<D>> near_edges_, near_vertices_;
+  std::vector<Near_wall_list<D>> near_faces_;  ///< once they are swept
 };
 
 extern template class Thick_parts<2>;
 extern template class Thick_parts<3>;
 
-/// Tests that each edge and vertex with a radius is at least at that distance from every wall: invariant I4.
+/// Tests that each edge and vertex with a radius, and each face if faces are swept, is at least at that distance
+/// from every wall: invariant I4.
 /// \throw Error(code) naming the first that is not, and its distance
 template <int D>
 void check_distances(const Body_state<D>& body, const Thick_parts<D>& thick, Error_code code);
 
-/// Refuses what bodies with a radius cannot do.
-/// \throw Error(usage)
-void check_thick_step(const Sweep_options& sweep, Step_rule rule);
+/// The same for faces.
+void check_face_distances(const Body_state<3>& body, const Thick_parts<3>& thick, Error_code code);
 
 }  // namespace cellwalk::detail
 

@@ -161,7 +161,6 @@ void refuse_with_radii(const Query_options& options) {
   };
   if (options.sweep.touch == Touch::stop) refuse("--touch stop", "with one, no wall is touched");
   if (options.method.kernel != Kernel_choice::exact) refuse("--kernel", "distances are exact only");
-  if (options.sweep.sweep == Sweep::three_segments) refuse("--sweep three_segments", "take triangle");
   if (options.contact) refuse("--contact", "leave it out, the exact time is found");
   if (options.row) refuse("--row", "--record and --picture show the walk of a point");
 }

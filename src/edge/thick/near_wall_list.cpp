@@ -3,7 +3,6 @@
 #include <cellwalk/internal/edge/near_wall_list.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,37 +13,39 @@ namespace {
 
 /// The reach of a first list, in lengths of its first motion.
 constexpr double first_reach = 4;
-/// Reaches whose squares are exact enough, see reaches().
+/// Reaches whose squares are exact enough, see reaches(); beyond them a list holds all walls.
 constexpr double least_reach = 0x1p-500, largest_reach = 0x1p500;
-
-double above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 /// In doubles the square of a distance is off by less than 2^-50 of it, and where it underflows by less than
 /// that part of the least square of a reach.
 template <int D>
-bool Near_wall_list<D>::reaches(const Point<D>& x, const Point<D>& from) const {
-  const Vector<D> way = x - from;
-  return dot(way, way) <= square_of_reach_;
+bool Near_wall_list<D>::reaches(const Thick_motion<D>& motion, std::size_t moving) const {
+  const auto is_near = [&](const Point<D>& x, std::size_t corner) {
+    const Vector<D> way = x - listed_[corner];
+    return dot(way, way) <= square_of_reach_;
+  };
+  const std::size_t size = corner_count(motion);
+  return is_near(motion.p, moving) && is_near(motion.target, moving) &&
+         (!motion.q || is_near(*motion.q, (moving + 1) % size)) &&
+         (!motion.third || is_near(*motion.third, (moving + 2) % size));
 }
 
 template <int D>
-bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion) {
-  const Point<D>& q = *motion.q;
-  const auto is_at = [&](const Point<D>& p, const Point<D>& still) {
-    return reaches(motion.p, p) && reaches(motion.target, p) && reaches(q, still);
+bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
+                                std::size_t moving, Swept_part part) {
+  if (epoch_ != snapshot.epoch() || !reaches(motion, moving)) make(snapshot, start, motion, moving);
+  const auto keeps_distance = [&](Swept_part tested) {
+    return is_apart_from_all(swept_hull(motion, tested), motion.radius);
   };
-  // Either end of the edge may be the one that moves.
-  if (epoch_ != snapshot.epoch() || !(is_at(p_, q_) || is_at(q_, p_))) {
-    make(snapshot, start, motion);
-    if (!is_at(p_, q_)) {
-      square_of_reach_ = -1;  // the edge may leave it untested
-      Edge_counts uncounted;
-      return !sweep_thick(snapshot, start, motion, uncounted).contact;
-    }
-  }
-  const std::array<Point<D>, 3> hull{motion.p, motion.target, q};
+  if (part == Swept_part::segments) return keeps_distance(Swept_part::way) && keeps_distance(Swept_part::end);
+  return keeps_distance(part);
+}
+
+template <int D>
+bool Near_wall_list<D>::is_apart_from_all(const Swept_hull<D>& hull, double radius) {
   Box<D> box;
   for (const Point<D>& x : hull) box.extend(x);
   tests_ += walls_.size();
@@ -52,37 +53,39 @@ bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const T
   for (Wall& wall : walls_) {
     bool is_far = false;
     for (std::size_t k = 0; k < D; ++k)
-      is_far |=
-          wall.box.low[k] - box.high[k] > motion.radius || box.low[k] - wall.box.high[k] > motion.radius;
+      is_far |= wall.box.low[k] - box.high[k] > radius || box.low[k] - wall.box.high[k] > radius;
     if (is_far) continue;
-    if (!is_apart<D>(hull, {corners_.data() + wall.first, corners_.data() + wall.last}, motion.radius,
-                     wall.near, uncounted))
+    if (!is_apart<D>({hull.data(), hull.size()}, {corners_.data() + wall.first, corners_.data() + wall.last},
+                     radius, wall.near, uncounted))
       return false;
   }
   return true;
 }
 
 template <int D>
-void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion) {
+void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
+                             std::size_t moving) {
+  boost::container::static_vector<Point<D>, 3> hull{motion.p};
+  for (const auto& corner : {motion.q, motion.third})
+    if (corner) hull.push_back(*corner);
+  for (std::size_t i = 0; i < hull.size(); ++i) listed_[(moving + i) % hull.size()] = hull[i];
   // A longer list is made less often: its reach is right where the tests of walls cost about what it cost.
   // Beyond the size of the edge, the flood would grow faster than what it saves.
   const double way = length(motion.target - motion.p);
+  double size = 0;
+  for (const Point<D>& x : hull) size = std::max(size, length(x - motion.p));
   reach_ = reach_ == 0 ? first_reach * way : tests_ < facets_ ? 2 * reach_ : reach_ / 2;
-  reach_ = std::min(reach_, std::max(first_reach * way, length(*motion.q - motion.p) + motion.radius));
-  reach_ = std::max(reach_, (1 + 0x1p-40) * way);
-  const bool is_in_range = reach_ > least_reach && reach_ < largest_reach;
-  square_of_reach_ = is_in_range ? reach_ * reach_ * (1 - 0x1p-48) : -1;
+  reach_ = std::min(reach_, std::max(first_reach * way, size + motion.radius));
+  reach_ = std::max({reach_, (1 + 0x1p-40) * way, least_reach});
+  if (!(reach_ < largest_reach)) reach_ = infinity;
+  square_of_reach_ = reach_ * reach_ * (1 - 0x1p-48);
+  epoch_ = snapshot.epoch();
   walls_.clear();
   corners_.clear();
   facets_ = tests_ = 0;
-  p_ = motion.p;
-  q_ = *motion.q;
-  epoch_ = snapshot.epoch();
-  if (!is_in_range) return;
-  const std::array<Point<D>, 2> edge{p_, q_};
-  const double near = above(motion.radius + reach_);
+  const double near = std::nextafter(motion.radius + reach_, infinity);
   Cell_list cells;
-  Near_walls<D>(snapshot, edge, near).visit(start, cells, [&](Half_facet half) {
+  Near_walls<D>(snapshot, {hull.data(), hull.size()}, near).visit(start, cells, [&](Half_facet half) {
     const Cell_view<D> view = snapshot.view(snapshot.cell_of(half));
     Wall wall{static_cast<std::uint32_t>(corners_.size()), 0, {}, {}};
     for (const std::uint16_t v : view.loop(snapshot.facet_of(half))) {
@@ -91,8 +94,10 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thic
     }
     wall.last = static_cast<std::uint32_t>(corners_.size());
     Distance_counts uncounted;
-    if (std::isfinite(near) && is_apart<D>(edge, {corners_.data() + wall.first, corners_.data() + wall.last},
-                                           near, wall.near, uncounted))
+    Feature_pair of_start;
+    if (std::isfinite(near) &&
+        is_apart<D>({hull.data(), hull.size()}, {corners_.data() + wall.first, corners_.data() + wall.last},
+                    near, of_start, uncounted))
       corners_.resize(wall.first);
     else
       walls_.push_back(wall);

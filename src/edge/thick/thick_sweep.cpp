@@ -30,37 +30,69 @@ std::span<const Point<D>> in(const Points<D>& points) {
   return {points.data(), points.size()};
 }
 
+/// The order of the corners of a wall that does not depend on where its loop starts, nor on the side: the
+/// lowest corner is the second, after the lower of its neighbours. So the first three are not collinear.
+template <int D>
+class Canonical_order {
+ public:
+  explicit Canonical_order(const Points<D>& corners) : size_(corners.size()) {
+    const auto lowest = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
+    const std::size_t next = (lowest + 1) % size_, last = (lowest + size_ - 1) % size_;
+    const bool is_forward = corners[last] < corners[next];
+    first_ = is_forward ? last : next;
+    step_ = is_forward ? 1 : size_ - 1;
+    for (std::size_t i = 0; i < size_; ++i) corners_.push_back(corners[in_loop(i)]);
+  }
+
+  std::span<const Point<D>> corners() const { return in<D>(corners_); }
+  /// The position of a vertex, or of the edge between two neighbours.
+  std::uint16_t in_loop(const Feature& feature) const {
+    const std::size_t i = in_loop(feature.corners[0]);
+    if (feature.size == 1) return static_cast<std::uint16_t>(i);
+    const std::size_t j = in_loop(feature.corners[1]);
+    return static_cast<std::uint16_t>((i + 1) % size_ == j ? i : j);
+  }
+
+ private:
+  std::size_t in_loop(std::size_t i) const { return (first_ + i * step_) % size_; }
+
+  Points<D> corners_;
+  std::size_t size_, first_, step_;
+};
+
 /// The feature of a wall that a contact names.
 template <int D>
-void set_feature(Contact<D>& contact, Half_facet wall, const Feature& of_wall) {
+void set_feature(Contact<D>& contact, Half_facet wall, const Canonical_order<D>& order,
+                 const Feature& of_wall) {
   contact.facet = wall;
   contact.kind = of_wall.size == D   ? Contact_kind::facet
                  : of_wall.size == 1 ? Contact_kind::vertex
                                      : Contact_kind::edge;
-  contact.corner = contact.kind == Contact_kind::facet ? std::uint16_t{0} : of_wall.corners[0];
+  contact.corner = contact.kind == Contact_kind::facet ? std::uint16_t{0} : order.in_loop(of_wall);
 }
 
-/// Points that are nearer to each other, in proportion, may be the same.
+/// In proportion to the edge, points that are less nearer to each other are not.
 constexpr double rounding = 0x1p-40;
 
 template <int D>
 class Thick_sweep {
  public:
-  Thick_sweep(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion)
-      : snapshot_(snapshot), start_(start), motion_(motion) {
+  Thick_sweep(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, Swept_part part)
+      : snapshot_(snapshot), start_(start), motion_(motion), part_(part) {
     before_.push_back(motion.p);
-    if (motion.q) before_.push_back(*motion.q);
-    swept_ = before_;
-    swept_.push_back(motion.target);
+    for (const auto& corner : {motion.q, motion.third})
+      if (corner) before_.push_back(*corner);
   }
 
   Thick_result<D> run(Edge_counts& counts) {
     ++counts.floods;
     Cell_list cells;
-    Near_walls<D>(snapshot_, in<D>(swept_), motion_.radius).visit(start_, cells, [&](Half_facet wall) {
-      ++counts.search_walls;
-      look_at(wall);
-    });
+    const Swept_hull<D> swept = swept_hull(motion_, Swept_part::all);
+    Near_walls<D>(snapshot_, {swept.data(), swept.size()}, motion_.radius)
+        .visit(start_, cells, [&](Half_facet wall) {
+          ++counts.search_walls;
+          look_at(wall);
+        });
     counts.flooded_cells += cells.size();
     if (close_) return {close_, true};
     return {first_, false};
@@ -70,16 +102,21 @@ class Thick_sweep {
   void look_at(Half_facet wall) {
     const Points<D> corners = corners_of(snapshot_, wall);
     if (close_ && distance_bound<D>(in<D>(before_), in<D>(corners)) > close_->distance) return;
-    if (is_far(swept_, corners)) return;
+    if (is_far(swept_hull(motion_, Swept_part::all), corners)) return;
     if (!is_far(before_, corners))
       keep_nearest(wall, corners);
-    else if (!close_)
+    else if (!close_ && is_part_near(corners))
       keep_first(wall, corners);
   }
 
-  bool is_far(const Points<D>& hull, const Points<D>& corners) {
+  bool is_far(const auto& hull, const Points<D>& corners) {
     Feature_pair near;
-    return is_apart<D>(in<D>(hull), in<D>(corners), motion_.radius, near, distance_counts_);
+    return is_apart<D>({hull.data(), hull.size()}, in<D>(corners), motion_.radius, near, distance_counts_);
+  }
+
+  bool is_part_near(const Points<D>& corners) {
+    return part_ == Swept_part::all || !is_far(swept_hull(motion_, Swept_part::way), corners) ||
+           !is_far(swept_hull(motion_, Swept_part::end), corners);
   }
 
   void keep_nearest(Half_facet wall, const Points<D>& corners) {
@@ -88,47 +125,68 @@ class Thick_sweep {
     if (close_ && (close_->distance < contact.distance ||
                    (close_->distance == contact.distance && close_->facet <= wall)))
       return;
-    Nearest<D> nearest = nearest_in_doubles<D>(in<D>(before_), in<D>(corners));
+    const Canonical_order<D> order(corners);
+    Nearest<D> nearest = nearest_in_doubles<D>(in<D>(before_), order.corners());
     if constexpr (D == 3)
-      if (contact.distance == 0 && motion_.q) nearest = pierced(nearest, corners);
+      if (contact.distance == 0) nearest = where_pierced(nearest, order.corners());
     contact.point = nearest.on_b;
-    contact.body = nearest.features.a.size == 2 ? Body_feature::edge : Body_feature::vertex;
+    contact.body = body_feature(nearest.features.a);
     contact.cell = start_;
-    set_feature(contact, wall, nearest.features.b);
+    set_feature(contact, wall, order, nearest.features.b);
     close_ = contact;
   }
 
-  /// The point in which the edge pierces a facet, none of whose features need be near.
-  Nearest<3> pierced(const Nearest<3>& nearest, const Points<3>& corners) const {
-    const Point<3>&p = before_[0], &q = before_[1];
-    const double apart = length(nearest.on_b - nearest.on_a);
-    if (apart <= rounding * (length(q - p) + length(nearest.on_b - p))) return nearest;
-    const Vector<3> n = unit_normal(corners[0], corners[1], corners[2]);
-    const double of_p = dot(n, p - corners[0]), of_q = dot(n, q - corners[0]);
-    if (!(of_p * of_q < 0)) return nearest;
-    const Point<3> x = point_on<3>(p, q, of_p / (of_p - of_q));
-    return {{{{0, 1, 0}, 2}, {{0, 1, 2}, 3}}, x, x};
+  /// The point in which an edge of one pierces the other, if none of their features are near each other.
+  Nearest<3> where_pierced(Nearest<3> best, std::span<const Point<3>> wall) const {
+    const auto gap = [](const Nearest<3>& pair) { return length(pair.on_b - pair.on_a); };
+    const auto try_edges = [&](std::span<const Point<3>> edges, std::span<const Point<3>> facet,
+                               bool are_of_wall) {
+      for (std::size_t i = 0; facet.size() > 2 && i < edges.size(); ++i) {
+        const Point<3>&p = edges[i], &q = edges[(i + 1) % edges.size()];
+        const Vector<3> n = unit_normal(facet[0], facet[1], facet[2]);
+        const double of_p = dot(n, p - facet[0]), of_q = dot(n, q - facet[0]);
+        if (!(of_p * of_q < 0)) continue;
+        const Points<3> x{point_on<3>(p, q, of_p / (of_p - of_q))};
+        Nearest<3> found = nearest_in_doubles<3>(in<3>(x), facet);
+        if (!(gap(found) + rounding * length(q - p) < gap(best))) continue;
+        found.features.a = are_of_wall ? facet_feature(0, 1, 2) : edge_feature(i, (i + 1) % edges.size());
+        found.features.b = are_of_wall ? edge_feature(i, (i + 1) % edges.size()) : facet_feature(0, 1, 2);
+        found.on_a = found.on_b = x[0];
+        best = found;
+      }
+    };
+    try_edges(in<3>(before_), wall, false);
+    try_edges(wall, in<3>(before_), true);
+    return best;
+  }
+
+  /// A side of a face that stands still is met by the face.
+  Body_feature body_feature(const Feature& of_motion) const {
+    if (motion_.third && of_motion.corners[0] != 0) return Body_feature::face;
+    return static_cast<Body_feature>(of_motion.size - 1);
   }
 
   void keep_first(Half_facet wall, const Points<D>& corners) {
     if (first_ && is_later<D>(motion_, in<D>(corners), first_->time)) return;
-    const Near_time near = find_near_time<D>(motion_, in<D>(corners));
+    const Canonical_order<D> order(corners);
+    const Near_time near = find_near_time<D>(motion_, order.corners());
     Contact<D> contact;
     contact.set_time(to_time(near.root));
     if (first_ && first_->time < contact.time) return;
-    const Near_place<D> place = find_near_place<D>(motion_, in<D>(corners), near, contact.time);
+    const Near_place<D> place = find_near_place<D>(motion_, order.corners(), near, contact.time);
     contact.point = place.on_wall;
     contact.normal = place.normal;
-    contact.body = near.of_motion.size == 2 ? Body_feature::edge : Body_feature::vertex;
+    contact.body = body_feature(near.of_motion);
     contact.cell = start_;
-    set_feature(contact, wall, near.of_wall);
+    set_feature(contact, wall, order, near.of_wall);
     if (!first_ || is_before(contact, *first_)) first_ = contact;
   }
 
   const Snapshot<D>& snapshot_;
   Cell start_;
   const Thick_motion<D>& motion_;
-  Points<D> before_, swept_;
+  Swept_part part_;
+  Points<D> before_;
   std::optional<Contact<D>> close_, first_;
   Distance_counts distance_counts_;
 };
@@ -137,15 +195,13 @@ class Thick_sweep {
 
 template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
-                            Edge_counts& counts) {
-  return Thick_sweep<D>(snapshot, start, motion).run(counts);
+                            Edge_counts& counts, Swept_part part) {
+  return Thick_sweep<D>(snapshot, start, motion, part).run(counts);
 }
 
 void check_thick_sweep(const Sweep_options& options) {
   const auto refuse = [](const char* reason) { throw Error(Error_code::usage, reason); };
   if (options.touch == Touch::stop) refuse("touch stop: not for motions with a radius, which touch no wall");
-  if (options.sweep == Sweep::three_segments)
-    refuse("sweep three_segments: not for edges with a radius; take triangle");
   if (options.search) refuse("the searches of the paper: not for edges with a radius, whose times are exact");
 }
 
@@ -165,7 +221,9 @@ double clearance(const Snapshot<D>& snapshot, Cell start, const Point<D>& p, con
 template double clearance<2>(const Snapshot<2>&, Cell, const Point<2>&, const Point<2>&, double);
 template double clearance<3>(const Snapshot<3>&, Cell, const Point<3>&, const Point<3>&, double);
 
-template Thick_result<2> sweep_thick<2>(const Snapshot<2>&, Cell, const Thick_motion<2>&, Edge_counts&);
-template Thick_result<3> sweep_thick<3>(const Snapshot<3>&, Cell, const Thick_motion<3>&, Edge_counts&);
+template Thick_result<2> sweep_thick<2>(const Snapshot<2>&, Cell, const Thick_motion<2>&, Edge_counts&,
+                                        Swept_part);
+template Thick_result<3> sweep_thick<3>(const Snapshot<3>&, Cell, const Thick_motion<3>&, Edge_counts&,
+                                        Swept_part);
 
 }  // namespace cellwalk::detail

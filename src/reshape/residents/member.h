@@ -8,7 +8,7 @@
 
 namespace cellwalk::detail {
 
-/// A vertex or an edge of a group.
+/// A vertex, an edge or a face of a group.
 struct Member {
   std::uint32_t group, number;
   auto operator<=>(const Member&) const = default;

@@ -110,6 +110,9 @@ void Resident_groups<D>::add_thick(std::uint32_t group) {
     add(v, Body_feature::vertex, of.body->radius_of_vertex(v), {&v, 1});
   for (std::uint32_t e = 0; e < of.edges.size(); ++e)
     add(e, Body_feature::edge, of.body->radius_of_edge(e), of.edges[e]);
+  if (!of.body->keeps_faces()) return;
+  for (std::uint32_t f = 0; f < of.faces.size(); ++f)
+    add(f, Body_feature::face, of.body->radius_of_face(f), of.faces[f]);
 }
 
 template <int D>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The vertices and edges with a radius, by place. Theory: docs/radius.md, walls that move and change.
+// The vertices, edges and faces with a radius, by place. Theory: docs/radius.md, walls that move and change.
 #ifndef CELLWALK_RESHAPE_RESIDENTS_THICK_MEMBERS_H
 #define CELLWALK_RESHAPE_RESIDENTS_THICK_MEMBERS_H
 
@@ -17,14 +17,14 @@
 
 namespace cellwalk::detail {
 
-/// A vertex without edges, or an edge.
+/// A vertex without edges, an edge or a face.
 template <int D>
 struct Thick_member {
   Member member;
   Body_feature feature;
   double radius;                                              ///< greater than 0
-  boost::container::static_vector<std::uint32_t, 2> corners;  ///< vertices of its body
-  boost::container::static_vector<Point<D>, 2> points;        ///< where these are
+  boost::container::static_vector<std::uint32_t, 3> corners;  ///< vertices of its body
+  boost::container::static_vector<Point<D>, 3> points;        ///< where these are
 
   std::span<const Point<D>> hull() const { return {points.data(), points.size()}; }
 };

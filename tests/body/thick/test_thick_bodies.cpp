@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bodies with a radius by hand, and at random in the worlds of the walk, where all walls are measured in
-// rational arithmetic after each step.
+// Bodies with a radius, by hand.
 #include <cellwalk/body/body.h>
 #include <cellwalk/generators/grid.h>
-#include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/kernel/random.h>
 #include <cellwalk/kernel/error.h>
 
@@ -14,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/thick_motions.h"
+#include "edge/membrane_environment.h"
 #include "edge/thick_oracle.h"
 #include "edge/thick_rooms.h"
 #include "walk/oracle_trial.h"
@@ -120,10 +118,6 @@ TEST_F(InTheMembraneRoom, ErrorsNameWhatIsWrong) {
     choose(options);
     return refusal([&] { body.step(body.positions(), options, report, counts); });
   };
-  EXPECT_EQ(refused([](Body_options& o) { o.rule = Step_rule::reject_at_target; }),
-            "the rule reject_at_target: not for bodies with a radius; take slide or reject");
-  EXPECT_EQ(refused([](Body_options& o) { o.sweep.sweep = Sweep::faces; }),
-            "sweep faces: not for bodies with a radius; take triangle");
   EXPECT_EQ(refused([](Body_options& o) { o.sweep.touch = Touch::stop; }),
             "touch stop: not for motions with a radius, which touch no wall");
 }
@@ -259,128 +253,112 @@ TEST(ThickBodies, ACordKeepsOffTheWallsOfAChannel) {
   EXPECT_GT(at_walls, 10 * steps);
 }
 
-struct Judged {
-  int steps = 0, moved = 0, contacts = 0, bodies = 0, at_radius = 0;
-};
-
-/// The vertices of a body in turn: each goes straight to where it is after the step, or in pieces of which
-/// the last one ends there. Its edges keep their distance where it has gone, as far as positions tell.
-template <int D>
-void judge(const Thick_oracle<D>& oracle, const Body<D>& body) {
-  for (std::size_t e = 0; e < body.edges().size(); ++e) {
-    const auto [u, v] = body.edges()[e];
-    const std::array<Point<D>, 2> edge{body.positions()[u], body.positions()[v]};
-    const auto square = oracle.square_to_walls(edge);
-    ASSERT_TRUE(root_is_at_least(square, body.radius(e))) << "edge " << e;
-    const double up_to = 2 * body.radius(e) + length(edge[1] - edge[0]);
-    const double bound = body.clearances(up_to)[e];
-    ASSERT_TRUE(root_is_at_least(square, bound)) << "edge " << e;
-    double size = 0;
-    for (const auto& wall : oracle.walls())
-      size = std::max(size, length(wall.high - edge[0]) + length(wall.low - edge[0]));
-    ASSERT_GE(bound, std::min(up_to, root_rounded_down(square)) - 0x1p-40 * size) << "edge " << e;
-  }
-}
-
-template <int D>
-void walk_about(std::uint64_t seed, Judged& judged) {
-  const oracle::World<D> world = thick_world<D>(seed);
-  const Snapshot<D> snapshot = Snapshot<D>::compile(world.soup, glue(world.soup));
-  const Locator<D> locator(snapshot);
-  const Thick_oracle<D> oracle(snapshot);
-  if (oracle.walls().empty()) return;
-  Thick_motions<D> motions(world, oracle, seed);
-  Random random(seed);
-  // A polyline of the ends of a motion, whose edges have radii of which all are possible at first.
-  for (int tries = 0; tries < 4; ++tries) {
-    const Thick_motion<D> m = motions.next();
-    Body_soup<D> soup;
-    soup.points = {m.p, m.q, m.p};
-    soup.edges = {{0, 1}, {1, 2}};
-    const double most = root_rounded_down(oracle.square_to_walls(std::array{m.p, m.q}));
-    if (!(most > 0)) continue;
-    const auto radius = [&] { return random.chance(0.3) ? most : most * random.real(); };
-    soup.radii =
-        random.chance(0.3) ? std::vector{radius()} : std::vector{radius(), random.chance(0.3) ? 0 : radius()};
-    std::optional<Body<D>> body;
-    try {
-      body.emplace(snapshot, locator, soup);
-    } catch (const Error& error) {
-      ASSERT_EQ(error.code(), Error_code::outside);  // on a wall, without a radius
-      continue;
-    }
-    ++judged.bodies;
+/// An edge that comes near a spike on its way only is reported, and goes there.
+TEST(ThickBodies, TheRuleOfThePaperReportsWhatIsSwept) {
+  const std::vector<Point<3>> inside{{0, 0, 4}, {8, 0, 4}, {4, 12, 4}};
+  const Environment<3> room = membrane_environment({{{4, 3, 0}, {4, 5, 0}, {4, 4, 4}}}, inside);
+  for (const Sweep sweep : {Sweep::triangle, Sweep::three_segments}) {
+    Body<3> body(room, rod({inside[0], inside[2]}, {1}));
     Body_options options;
-    if (random.chance(0.3)) options.rule = Step_rule::reject;
-    const Vector<D> way = m.target - m.p;
+    options.sweep.sweep = sweep;
+    options.rule = Step_rule::reject_at_target;
+    options.reports_blocked = true;
     Body_counts counts;
-    for (int step = 0; step < 6; ++step) {
-      const std::vector<Point<D>> before(body->positions().begin(), body->positions().end());
-      std::vector<Point<D>> targets = before;
-      for (Point<D>& x : targets)
-        if (random.chance(0.7)) x = x + std::ldexp(1, -static_cast<int>(random.below(3))) * way;
-      Step_report<D> report;
-      body->step(targets, options, report, counts);
-      ++judged.steps;
-      judged.contacts += static_cast<int>(report.contacts.size());
-      judge(oracle, *body);
-      ASSERT_FALSE(::testing::Test::HasFatalFailure()) << "world " << seed;
-      ASSERT_NO_THROW(body->validate());
-      for (std::size_t v = 0; v < before.size(); ++v) {
-        judged.moved += body->positions()[v] != before[v];
-        if (options.rule == Step_rule::slide || body->positions()[v] == before[v]) continue;
-        // It went straight there, while those before it were moved already.
-        EXPECT_EQ(body->positions()[v], targets[v]);
-        for (const std::uint32_t w : body->neighbours(static_cast<std::uint32_t>(v))) {
-          const Point<D>& still = w < v ? body->positions()[w] : before[w];
-          const std::size_t e = std::min<std::size_t>(v, w);
-          ASSERT_TRUE(root_is_at_least(oracle.square_to_walls(std::array{before[v], targets[v], still}),
-                                       body->radius(e)))
-              << "world " << seed << " edge " << e;
-        }
-      }
-      // Where nothing was in the way, something is nearer than the radius to what would have been swept.
-      if (options.rule != Step_rule::reject) continue;
-      for (const Contact<D>& contact : report.contacts) {
-        const std::uint32_t v = contact.vertex;
-        bool is_blocked = false, has_thin = false;
-        for (const std::uint32_t w : body->neighbours(v)) {
-          const Point<D>& still = w < v ? body->positions()[w] : before[w];
-          const double r = body->radius(std::min<std::size_t>(v, w));
-          has_thin |= r == 0;
-          is_blocked |=
-              r > 0 && !root_is_at_least(oracle.square_to_walls(std::array{before[v], targets[v], still}), r);
-        }
-        EXPECT_TRUE(is_blocked || has_thin) << "world " << seed;
-      }
+    Step_report<3> report;
+    body.step(std::array{inside[1], inside[2]}, options, report, counts);
+    EXPECT_EQ(body.positions()[0], inside[1]);
+    ASSERT_EQ(report.blocked.size(), sweep == Sweep::triangle ? 1u : 0u);
+    if (!report.blocked.empty()) {
+      EXPECT_EQ(report.blocked[0].swept_edges, 1u);
+      EXPECT_FALSE(report.blocked[0].stays());
     }
-    for (std::size_t e = 0; e < 2; ++e)
-      judged.at_radius += body->radius(e) > 0 && root_rounded_down(oracle.square_to_walls(std::array{
-                                                     body->positions()[e], body->positions()[e + 1]})) <
-                                                     body->radius(e) * (1 + 1e-9);
+    // By other rules the triangle decides, or both segments.
+    options.rule = Step_rule::reject;
+    EXPECT_EQ(body.move_vertex(0, inside[0], options, counts).has_value(), sweep == Sweep::triangle);
   }
 }
 
-template <int D>
-void test_random() {
-  Judged judged;
-  const int worlds = static_cast<int>(oracle::scaled_count(120));
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(worlds); ++seed) {
-    walk_about<D>(seed, judged);
-    if (::testing::Test::HasFatalFailure()) return;
-  }
-  SCOPED_TRACE(::testing::Message() << judged.bodies << " bodies, " << judged.steps << " steps, "
-                                    << judged.moved << " moves, " << judged.contacts
-                                    << " contacts, at their radius " << judged.at_radius);
-  if (oracle::is_shortened()) return;
-  EXPECT_GT(judged.bodies, 2 * worlds);
-  EXPECT_GT(judged.moved, 10 * worlds);
-  EXPECT_GT(judged.contacts, 5 * worlds);
-  EXPECT_GT(judged.at_radius, worlds / 2);
+/// Case 46: the face, but none of its edges, comes near the tip of a wall.
+TEST(ThickBodies, AFaceMeetsASpike) {
+  const std::vector<Point<3>> inside{{4, 9, 6}, {0, 0, 6}, {8, 0, 6}};
+  const Environment<3> room = membrane_environment({{{4, 3, 0}, {4, 5, 0}, {4, 4, 4}}}, inside);
+  Body_soup<3> soup;
+  soup.points = inside;
+  soup.edges = {{0, 1}, {0, 2}, {1, 2}};
+  soup.faces = {{0, 1, 2}};
+  soup.radii = {1};
+  const Point<3> target{4, 9, 2};
+  Body_options options;
+  options.rule = Step_rule::reject;
+  Body_counts counts;
+  Body<3> without_faces(room, soup);
+  EXPECT_FALSE(without_faces.move_vertex(0, target, options, counts));
+  options.sweep.sweep = Sweep::faces;
+  Body<3> body(room, soup);
+  const auto contact = body.move_vertex(0, target, options, counts);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->time, 0.5461651584688989);
+  EXPECT_EQ(contact->body, Body_feature::face);
+  EXPECT_EQ(contact->kind, Contact_kind::vertex);
+  EXPECT_EQ(contact->feature, 0u);
+  EXPECT_EQ(contact->point, (Point<3>{4, 4, 4}));
+  EXPECT_EQ(body.positions()[0], inside[0]);
+  // Faces that were left alone are measured when they are swept again.
+  EXPECT_EQ(refusal([&] { without_faces.move_vertex(0, target, options, counts); }).substr(0, 120),
+            "face 0 of the body, with vertices 0 at (4, 9, 2), 1 at (0, 0, 6) and 2 at (8, 0, 6), is at a "
+            "distance of 0.2030692330267");
+  // By the rule of the paper nobody looks at it.
+  options.rule = Step_rule::reject_at_target;
+  options.reports_blocked = true;
+  Step_report<3> report;
+  without_faces = Body<3>(room, soup);
+  without_faces.step(std::array{target, inside[1], inside[2]}, options, report, counts);
+  EXPECT_TRUE(report.blocked.empty());
+  // The radius of a face is the least of its sides'.
+  soup.radii = {1, 1, 0.125};
+  Body<3> thinner(room, soup);
+  const auto later = thinner.move_vertex(0, target, options, counts);
+  EXPECT_FALSE(later) << later->time;
+  thinner.validate();
+  EXPECT_THROW(thinner.set_radii(std::array{1.0}), Error);
 }
 
-TEST(ThickBodies, KeepTheirDistance2) { test_random<2>(); }
-TEST(ThickBodies, KeepTheirDistance3) { test_random<3>(); }
+TEST_F(InTheMembraneRoom, TheRuleOfThePaperMeasuresTheWayAndTheEnd) {
+  Body<3> body(room, rod({{2, 1, 4}, {2, 4, 4}}, {0.5}));
+  Body_options options;
+  options.rule = Step_rule::reject_at_target;
+  options.reports_blocked = true;
+  Body_counts counts;
+  const auto step_to = [&](const Point<3>& p) {
+    Step_report<3> report;
+    body.step(std::array<Point<3>, 2>{p, body.positions()[1]}, options, report, counts);
+    return report.blocked;
+  };
+  // Beside the rim, and past it: only the edge sweeps what is near.
+  EXPECT_TRUE(step_to({2, 1.25, 4}).empty());
+  auto blocked = step_to({3.75, 4, 4});
+  ASSERT_EQ(blocked.size(), 1u);
+  EXPECT_TRUE(blocked[0].is_vertex_blocked);
+  EXPECT_EQ(blocked[0].contact->body, Body_feature::vertex);
+  EXPECT_EQ(blocked[0].contact->point[0], 4);
+  // The way keeps off the rim, the edge would cross the membrane.
+  blocked = step_to({6, 1, 4});
+  ASSERT_EQ(blocked.size(), 1u);
+  EXPECT_FALSE(blocked[0].is_vertex_blocked);
+  EXPECT_EQ(blocked[0].edges, 1u);
+  EXPECT_EQ(blocked[0].swept_edges, 1u);
+  EXPECT_EQ(blocked[0].contact->body, Body_feature::edge);
+  EXPECT_EQ(body.positions()[0], (Point<3>{2, 1.25, 4}));
+  EXPECT_NO_THROW(body.validate());
+
+  options.reports_blocked = false;
+  Step_report<3> report;
+  body.step(std::array<Point<3>, 2>{{{6, 1, 4}, {2, 4, 4}}}, options, report, counts);
+  ASSERT_EQ(report.contacts.size(), 1u);
+  EXPECT_EQ(report.contacts[0].body, Body_feature::edge);
+  EXPECT_EQ(report.contacts[0].feature, 0u);
+  EXPECT_EQ(report.contacts[0].vertex, 0u);
+}
 
 }  // namespace
 }  // namespace cellwalk::test

@@ -41,6 +41,7 @@ class Body_access {
   /// True if an edge or a vertex has a radius.
   static bool has_radii(const Body<D>& body);
   double radius_of_edge(std::uint32_t edge) const;
+  double radius_of_face(std::uint32_t face) const;
   /// 0 if it has edges.
   double radius_of_vertex(std::uint32_t vertex) const;
   double largest_radius() const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walls near an edge with a radius, which decide its moves as long as it stays where they were listed.
+// The walls near an edge or a face with a radius, which decide its moves as long as it stays where they were
+// listed.
 // Theory: docs/radius.md, lists of near walls.
 #ifndef CELLWALK_INTERNAL_EDGE_NEAR_WALL_LIST_H
 #define CELLWALK_INTERNAL_EDGE_NEAR_WALL_LIST_H
@@ -9,24 +10,31 @@
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/kernel/distance.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace cellwalk::detail {
 
-/// All moves of the edge must be tested by the list, or it must be forgotten. Nothing is counted: lists are
-/// not saved with a body, whose counts would depend on that.
+/// All moves of its corners must be tested by the list, or it must be forgotten. Nothing is counted: lists
+/// are not saved with a body, whose counts would depend on that.
 template <int D>
 class Near_wall_list {
  public:
-  /// True if a motion of the edge is free: the exact answer.
+  /// True if a motion is free: the exact answer.
   /// \param start a free cell in whose closure motion.p lies
-  /// \param motion of an edge; one of a point has q = p
+  /// \param motion of a vertex without edges, an edge or a face, the same each time
+  /// \param moving the number of p among its corners; q and the third one follow in cyclic order
+  /// \param part that has to keep the distance; all tested parts of one motion count as its test
   /// \pre where the motion starts, it is at least at the distance of its radius from every wall; the radius
   ///        is that of all motions before
   /// Cost: a comparison of boxes for each wall listed, is_apart() for those near; a flood of the cells nearer
   /// than the radius and the reach where the list ends.
-  bool is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion);
+  bool is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, std::size_t moving,
+               Swept_part part = Swept_part::all);
+  /// Its corners are about to move without a test.
+  void forget() { square_of_reach_ = -1; }
 
  private:
   struct Wall {
@@ -35,12 +43,13 @@ class Near_wall_list {
     Feature_pair near;  ///< that was nearest when it was last tested
   };
 
-  bool reaches(const Point<D>& x, const Point<D>& from) const;
-  void make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion);
+  bool reaches(const Thick_motion<D>& motion, std::size_t moving) const;
+  bool is_apart_from_all(const Swept_hull<D>& hull, double radius);
+  void make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, std::size_t moving);
 
   std::vector<Wall> walls_;
   std::vector<Point<D>> corners_;
-  Point<D> p_{}, q_{};  ///< where the edge was
+  std::array<Point<D>, 3> listed_{};  ///< where the corners were
   std::uint64_t epoch_ = 0;
   double square_of_reach_ = -1;  ///< rounded down; negative: the list holds nothing
   double reach_ = 0;

@@ -7,6 +7,8 @@
 #include <cellwalk/edge/sweep.h>
 #include <cellwalk/walk/contact.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <optional>
 
 namespace cellwalk::detail {
@@ -21,7 +23,40 @@ struct Thick_motion {
   std::optional<Point<D>> third{};  ///< of a face (3D): its third corner, which stands still as q does
 };
 
-/// The first time at which the vertex or the edge is at the distance r from a wall and comes nearer.
+/// The number of corners of what moves.
+template <int D>
+std::size_t corner_count(const Thick_motion<D>& motion) {
+  return 1 + static_cast<std::size_t>(motion.q.has_value()) +
+         static_cast<std::size_t>(motion.third.has_value());
+}
+
+/// The part of a motion that has to keep the distance.
+enum class Swept_part {
+  all,       ///< what the edge or face sweeps
+  way,       ///< the way of p
+  end,       ///< the edge at the end of the motion
+  segments,  ///< both of the last, see Sweep::three_segments
+};
+
+inline Swept_part part_of(Sweep sweep) {
+  return sweep == Sweep::three_segments ? Swept_part::segments : Swept_part::all;
+}
+
+template <int D>
+using Swept_hull = boost::container::static_vector<Point<D>, 4>;
+
+/// Its corners: p, the target, and those that stand still; what is not in the part is repeated by another one.
+/// \param part a hull: not `segments`
+template <int D>
+Swept_hull<D> swept_hull(const Thick_motion<D>& motion, Swept_part part) {
+  const bool is_way = part == Swept_part::way;
+  Swept_hull<D> hull{part == Swept_part::end ? motion.target : motion.p, motion.target};
+  for (const auto& corner : {motion.q, motion.third})
+    if (corner) hull.push_back(is_way ? motion.p : *corner);
+  return hull;
+}
+
+/// The first time at which the vertex, the edge or the face is at the distance r from a wall and comes nearer.
 template <int D>
 struct Thick_result {
   std::optional<Contact<D>> contact;  ///< none: the motion is free
@@ -30,20 +65,21 @@ struct Thick_result {
   bool starts_close = false;
 };
 
-/// Exact in every position: the motion is free if and only if the hull of p, its target and q has a distance
-/// of at least r from every wall.
+/// Exact in every position: the motion is free if and only if the hull of p, its target and the corners that
+/// stand still has a distance of at least r from every wall.
 /// \param snapshot in which the motion takes place
 /// \param start a free cell in whose closure p lies
 /// \param motion of finite points; the target and q may lie anywhere
 /// \param counts raised by the flood
+/// \param part walls that are near others only do not count
 /// Degenerate cases: q may be p, the target may be p, p may pass q, and all may be collinear. A start at the
 /// distance r is free. Contact::point is the nearest point of the wall, Contact::normal the direction from
-/// there to the vertex or edge; Contact::cell is the start.
+/// there to the vertex, edge or face; Contact::cell is the start. Faces may have no area.
 /// Cost: that of a flood through the cells nearer than r, about 30 ns a facet; is_apart() for each wall
 /// found; 0.1 to 0.3 ms where walls are in the way.
 template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
-                            Edge_counts& counts);
+                            Edge_counts& counts, Swept_part part = Swept_part::all);
 
 /// \throw Error(usage) for what edges with a radius cannot do
 void check_thick_sweep(const Sweep_options& options);
