@@ -55,7 +55,8 @@ std::vector<Thick_part<D>> thick_parts(const Body<D>& body) {
 }
 
 /// Gives each edge of the bodies of a world a radius of up to its distance from walls, some of them just
-/// that, so that faces keep theirs. Bodies that touch walls are dropped.
+/// that, so that faces keep theirs; all of a body with faces the same one, at times. Bodies that touch walls
+/// are dropped.
 template <int D, class World>
 void give_radii(World& world, double at_distance) {
   const Thick_oracle<D> oracle(world.snapshot);
@@ -71,6 +72,8 @@ void give_radii(World& world, double at_distance) {
       while (!std::ranges::includes(part.vertices, body->edges()[side])) ++side;
       radii[side] = std::min(radii[side], most);
     }
+    if (!body->faces().empty() && world.random.chance(0.5))
+      radii.assign(radii.size(), std::ranges::min(radii));
     if (std::ranges::any_of(radii, [](double r) { return !(r > 0x1p-30); })) return true;
     body->set_radii(radii);
     return false;

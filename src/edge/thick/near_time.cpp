@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A polynomial for each pair of a feature of the motion and one of the wall, and the conditions for its
-// roots.
+// The least root of all rows. Most rows are excluded near an approximate time, where intervals prove that they
+// have no root.
 #include "near_time.h"
 
 #include <cellwalk/internal/kernel/direction_at_distance.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 
-#include <boost/container/small_vector.hpp>
+#include <CGAL/FPU.h>
+#include <CGAL/Interval_nt.h>
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
@@ -15,135 +16,127 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
+
+#include "near_rows.h"
 
 namespace cellwalk::detail {
+
+template <int D>
+Near_rows rows_of(const Thick_motion<D>& motion, std::size_t wall_corners) {
+  Near_rows rows;
+  const auto add = [&](const Feature& of_motion, const Feature& of_wall) {
+    rows.push_back({of_motion, of_wall});
+  };
+  const Feature moving = vertex_feature(0);
+  const std::size_t still = corner_count(motion) - 1;
+  for (std::size_t i = 0; i < wall_corners; ++i) {
+    add(moving, vertex_feature(i));
+    for (std::size_t q = 1; q <= still; ++q) add(edge_feature(0, q), vertex_feature(i));
+    if (still == 2) add(facet_feature(0, 1, 2), vertex_feature(i));
+  }
+  for (std::size_t i = 0; i < wall_corners && wall_corners > 1; ++i) {
+    const std::size_t j = i + 1 == wall_corners ? 0 : i + 1;
+    if (j == 0 && wall_corners == 2) break;
+    add(moving, edge_feature(i, j));
+    for (std::size_t q = 1; D == 3 && q <= still; ++q) add(edge_feature(0, q), edge_feature(i, j));
+  }
+  if (D == 3 && wall_corners > 2) add(moving, facet_feature(0, 1, 2));
+  return rows;
+}
+
 namespace {
 
-/// A vector that changes evenly with time.
-template <int D>
-struct Moving_vector {
-  std::array<Ring, static_cast<std::size_t>(D)> at_0, rate{};
-};
+double value_at(const Polynomial<double>& p, double s) { return p.constant + s * (p.linear + s * p.square); }
 
-/// x - y for points that stand still.
+/// The least root in [0,1] at which the conditions hold, up to rounding; or infinity.
+double root_in_doubles(const Near_equation<double>& equation) {
+  constexpr double slack = 0x1p-30, never = std::numeric_limits<double>::infinity();
+  const auto& [a, b, c] = equation.polynomial;
+  const double discriminant = b * b - 4 * a * c;
+  if (!(discriminant >= -slack * b * b)) return never;
+  const double x = -(b + std::copysign(std::sqrt(std::max(discriminant, 0.0)), b)) / 2;
+  std::array roots{c / x, x / a};
+  if (roots[1] < roots[0]) std::swap(roots[0], roots[1]);
+  for (double root : roots) {
+    if (!(root >= -slack && root <= 1 + slack)) continue;
+    root = std::clamp(root, 0.0, 1.0);
+    const auto is_above = [&](const Polynomial<double>& p, double least) {
+      return value_at(p, root) >= least * (std::abs(p.square) + std::abs(p.linear) + std::abs(p.constant));
+    };
+    if (std::ranges::all_of(equation.at_least_0, [&](const auto& p) { return is_above(p, -slack); }) &&
+        std::ranges::all_of(equation.above_0, [&](const auto& p) { return is_above(p, slack); }))
+      return root;
+  }
+  return never;
+}
+
+using Interval = CGAL::Interval_nt<false>;
+
+/// The rows that may have a root between two times.
+/// \pre products of six coordinates are in the range of doubles
 template <int D>
-Moving_vector<D> between(const Point<D>& x, const Point<D>& y) {
-  Moving_vector<D> result;
-  for (std::size_t k = 0; k < D; ++k) {
-    result.at_0[k] = Ring(Ring(x[k]) - Ring(y[k]));
-    result.rate[k] = Ring(0);
+Near_rows rows_between(double from, double to, const Near_rows& rows, const Thick_motion<D>& motion,
+                       std::span<const Point<D>> wall) {
+  const CGAL::Protect_FPU_rounding<true> upwards;
+  const Near_equations<D, Interval> equations(motion, wall);
+  const Interval s(from, to);
+  Near_rows result;
+  for (const Near_row& row : rows) {
+    const Polynomial<Interval> p = equations.of(row).polynomial;
+    // Around the middle of the times, where the polynomial varies least.
+    const Interval middle((from + to) / 2), off = s - middle;
+    const Interval at_middle = p.constant + middle * (p.linear + middle * p.square);
+    const Interval rate = p.linear + 2 * middle * p.square;
+    const Interval value = at_middle + off * (rate + off * p.square);
+    if (!(value.inf() > 0 || value.sup() < 0)) result.push_back(row);
   }
   return result;
 }
 
+/// Whether the products of rows are in the range of doubles.
 template <int D>
-Ring ring_product(const std::array<Ring, static_cast<std::size_t>(D)>& x,
-                  const std::array<Ring, static_cast<std::size_t>(D)>& y) {
-  Ring sum(x[0] * y[0]);
-  for (std::size_t k = 1; k < D; ++k) sum = Ring(sum + x[k] * y[k]);
-  return sum;
+bool are_moderate(const Thick_motion<D>& motion, std::span<const Point<D>> wall) {
+  constexpr double most = 0x1p150;
+  const auto is_moderate = [](const Point<D>& x) {
+    return std::ranges::all_of(x, [](double c) { return std::abs(c) < most; });
+  };
+  return motion.radius < most && is_moderate(motion.p) && is_moderate(motion.target) &&
+         is_moderate(motion.q.value_or(motion.p)) && is_moderate(motion.third.value_or(motion.p)) &&
+         std::ranges::all_of(wall, is_moderate);
 }
 
-template <int D>
-Quadratic scalar_product(const Moving_vector<D>& x, const Moving_vector<D>& y) {
-  return {ring_product<D>(x.rate, y.rate),
-          Ring(ring_product<D>(x.at_0, y.rate) + ring_product<D>(x.rate, y.at_0)),
-          ring_product<D>(x.at_0, y.at_0)};
-}
-
-/// \pre one of them stands still
-Moving_vector<3> vector_product(const Moving_vector<3>& x, const Moving_vector<3>& y) {
-  Moving_vector<3> result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    result.at_0[k] = Ring(x.at_0[i] * y.at_0[j] - x.at_0[j] * y.at_0[i]);
-    result.rate[k] = Ring(Ring(x.at_0[i] * y.rate[j] - x.at_0[j] * y.rate[i]) +
-                          Ring(x.rate[i] * y.at_0[j] - x.rate[j] * y.at_0[i]));
-  }
-  return result;
-}
-
-/// The square of a polynomial of degree 1.
-Quadratic squared(const Quadratic& p) {
-  return {Ring(p.linear * p.linear), Ring(Ring(2) * p.linear * p.constant), Ring(p.constant * p.constant)};
-}
-
-/// The corner that moves.
-const Feature moving = vertex_feature(0);
+Quadratic to_quadratic(const Polynomial<Ring>& p) { return {p.square, p.linear, p.constant}; }
 
 /// The pairs of features of one motion and one wall.
 template <int D>
 class Near_time_search {
  public:
   Near_time_search(const Thick_motion<D>& motion, std::span<const Point<D>> wall)
-      : motion_(motion), wall_(wall) {
-    const Ring r(motion.radius);
-    square_of_radius_ = Ring(r * r);
-    for (const auto& corner : {motion.q, motion.third})
-      if (corner) sides_.push_back({from_p(*corner), *corner, sides_.size() + 1});
-  }
+      : motion_(motion), wall_(wall), rows_(rows_of(motion, wall.size())), equations_(motion, wall) {}
 
   Near_time run() {
     if (motion_.third && at_still_side()) return std::move(*first_);
-    for (std::size_t i = 0; i < wall_.size(); ++i) at_vertex(i);
-    if (wall_.size() == 2) at_side(0, 1);
-    if (wall_.size() > 2)
-      for (std::size_t i = 0; i < wall_.size(); ++i) at_side(i, i + 1 == wall_.size() ? 0 : i + 1);
-    if constexpr (D == 3) at_facet();
+    if (!take_near_approximate_time())
+      for (const Near_row& row : rows_) take(row);
     if (!first_) refuse_uncertified();
     return std::move(*first_);
   }
 
  private:
-  /// Polynomials that must be at least 0 at a root, and those that must be greater.
-  struct Conditions {
-    boost::container::small_vector<Quadratic, 8> at_least_0, above_0;
-  };
-
-  /// An edge from p to a corner that stands still.
-  struct Side {
-    Moving_vector<D> direction;  ///< p(s) - q
-    Point<D> q;
-    std::size_t corner;  ///< the number of q, see Near_time::of_motion
-  };
-
-  /// p(s) - x.
-  Moving_vector<D> from_p(const Point<D>& x) const {
-    Moving_vector<D> result = between<D>(motion_.p, x);
-    for (std::size_t k = 0; k < D; ++k) result.rate[k] = Ring(Ring(motion_.target[k]) - Ring(motion_.p[k]));
-    return result;
-  }
-
-  void at_vertex(std::size_t i) {
-    const Feature vertex{{static_cast<std::uint16_t>(i), 0, 0}, 1};
-    const Moving_vector<D> u = from_p(wall_[i]);
-    const Quadratic r2{Ring(0), Ring(0), square_of_radius_};
-    take(moving, vertex, scalar_product<D>(u, u) - r2, {});
-    for (const auto& [d, q, corner] : sides_) {
-      // The vertex and the line of the edge; its foot is in the edge, which has a length.
-      const Moving_vector<D> g = between<D>(wall_[i], q);
-      const Quadratic dd = scalar_product<D>(d, d), gd = scalar_product<D>(g, d);
-      take(edge_feature(0, corner), vertex,
-           scalar_product<D>(g, g).constant * dd - squared(gd) - square_of_radius_ * dd,
-           {{gd, dd - gd}, {dd}});
-    }
-    if constexpr (D == 3)
-      if (motion_.third) at_face(i);
-  }
-
-  /// The vertex and the plane of the face; its foot is on the inner side of all edges, seen along the normal.
-  void at_face(std::size_t i) {
-    const auto &to_p = sides_[0].direction, ridge = between<3>(*motion_.third, *motion_.q);
-    const Moving_vector<3> n = vector_product(ridge, to_p), g = between<3>(wall_[i], *motion_.q);
-    const auto along_n = [&](const Moving_vector<3>& x, const Moving_vector<3>& y) {
-      return scalar_product<3>(vector_product(x, y), n);
-    };
-    const Quadratic nn = scalar_product<3>(n, n);
-    take(facet_feature(0, 1, 2), {{static_cast<std::uint16_t>(i), 0, 0}, 1},
-         squared(scalar_product<3>(g, n)) - square_of_radius_ * nn,
-         {{along_n(ridge, g), along_n(sides_[1].direction, between<3>(wall_[i], *motion_.third)),
-           along_n(g, to_p)},
-          {nn}});
+  /// The motion is free until just before an approximate time, by its hull. Rows without a root between then
+  /// and just after do not matter if another one has its time there.
+  bool take_near_approximate_time() {
+    constexpr double width = 0x1p-30;
+    if (!are_moderate(motion_, wall_)) return false;
+    const double time = approximate_near_time(motion_, wall_);
+    if (!(time <= 1)) return false;
+    const double from = std::max(time - width, 0.0), to = std::min(time + width, 1.0);
+    if (from > 0 && !is_later(motion_, wall_, from)) return false;
+    for (const Near_row& row : rows_between(from, to, rows_, motion_, wall_)) take(row);
+    if (first_ && first_->root <= to) return true;
+    first_.reset();
+    return false;
   }
 
   /// If the side that stands still is at the distance r itself, the face is free until p enters the
@@ -152,10 +145,13 @@ class Near_time_search {
     const std::array<Point<D>, 2> side{*motion_.q, *motion_.third};
     const auto n = direction_at_distance<D>(side, wall_, motion_.radius);
     if (!n) return false;
-    Moving_vector<D> normal;
+    Moving_vector<D, Ring> normal, from_side = between<D, Ring>(motion_.p, side[n->corner]);
     normal.at_0 = n->direction;
-    for (Ring& x : normal.rate) x = Ring(0);
-    auto root = Exact_root::of(scalar_product<D>(from_p(side[n->corner]), normal), Exact_root::Which::lower);
+    for (std::size_t k = 0; k < D; ++k) {
+      normal.rate[k] = Ring(0);
+      from_side.rate[k] = Ring(Ring(motion_.target[k]) - Ring(motion_.p[k]));
+    }
+    auto root = Exact_root::of(to_quadratic(scalar_product<D>(from_side, normal)), Exact_root::Which::lower);
     if (!root) refuse_uncertified();
     auto [of_side, of_wall] = nearest_in_doubles<D>(side, wall_).features;
     for (std::size_t i = 0; i < of_side.size; ++i) ++of_side.corners[i];
@@ -163,53 +159,21 @@ class Near_time_search {
     return true;
   }
 
-  void at_side(std::size_t i, std::size_t j) {
-    const Feature side{{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j), 0}, 2};
-    const Moving_vector<D> e = between<D>(wall_[j], wall_[i]), u = from_p(wall_[i]);
-    const Quadratic ee = scalar_product<D>(e, e), ue = scalar_product<D>(u, e);
-    take(moving, side, ee.constant * scalar_product<D>(u, u) - squared(ue) - square_of_radius_ * ee,
-         {{ue, ee - ue}, {}});
-    if constexpr (D == 3) {
-      // The lines of both edges; their nearest points, by Cramer's rule, are in the edges, which are not
-      // parallel.
-      for (const auto& [d, q, corner] : sides_) {
-        const Moving_vector<3> n = vector_product(d, e), g = between<3>(wall_[i], q);
-        const Quadratic nn = scalar_product<3>(n, n), of_edge = scalar_product<3>(vector_product(g, e), n),
-                        of_side = scalar_product<3>(vector_product(g, d), n);
-        take(edge_feature(0, corner), side, squared(scalar_product<3>(g, n)) - square_of_radius_ * nn,
-             {{of_edge, nn - of_edge, of_side, nn - of_side}, {nn}});
-      }
-    }
-  }
-
-  void at_facet() {
-    if (wall_.size() < 3) return;
-    const Moving_vector<3> n = vector_product(between<3>(wall_[1], wall_[0]), between<3>(wall_[2], wall_[0]));
-    Conditions inside;
-    for (std::size_t k = 0; k < wall_.size(); ++k) {
-      const Point<3>&from = wall_[k], &to = wall_[k + 1 == wall_.size() ? 0 : k + 1];
-      inside.at_least_0.push_back(scalar_product<3>(vector_product(between<3>(to, from), from_p(from)), n));
-    }
-    take(moving, {{0, 1, 2}, 3},
-         squared(scalar_product<3>(from_p(wall_[0]), n)) - square_of_radius_ * scalar_product<3>(n, n),
-         inside);
-  }
-
   /// Keeps a root in [0,1] at which the conditions hold, if it is the first.
-  void take(const Feature& of_motion, const Feature& of_wall, const Quadratic& polynomial,
-            const Conditions& conditions) {
+  void take(const Near_row& row) {
+    const Near_equation<Ring> equation = equations_.of(row);
+    const Quadratic polynomial = to_quadratic(equation.polynomial);
     if (polynomial.is_zero()) return;
     for (const auto which : {Exact_root::Which::lower, Exact_root::Which::upper}) {
       const auto root = Exact_root::of(polynomial, which);
       if (!root) return;
-      if (root->sign_of({Ring(0), Ring(1), Ring(0)}) < 0 || root->sign_of({Ring(0), Ring(1), Ring(-1)}) > 0)
+      if (*root < 0.0 || *root > 1.0) continue;
+      const auto is_negative = [&](const Polynomial<Ring>& c) { return root->sign_of(to_quadratic(c)) < 0; };
+      const auto is_positive = [&](const Polynomial<Ring>& c) { return root->sign_of(to_quadratic(c)) > 0; };
+      if (std::ranges::any_of(equation.at_least_0, is_negative) ||
+          !std::ranges::all_of(equation.above_0, is_positive))
         continue;
-      const auto is_negative = [&](const Quadratic& c) { return root->sign_of(c) < 0; };
-      const auto is_positive = [&](const Quadratic& c) { return root->sign_of(c) > 0; };
-      if (std::ranges::any_of(conditions.at_least_0, is_negative) ||
-          !std::ranges::all_of(conditions.above_0, is_positive))
-        continue;
-      const Near_time found{*root, of_motion, of_wall};
+      const Near_time found{*root, row.of_motion, row.of_wall};
       if (!first_ || is_before(found, *first_)) first_ = found;
       return;  // the other root is later
     }
@@ -217,8 +181,8 @@ class Near_time_search {
 
   const Thick_motion<D>& motion_;
   std::span<const Point<D>> wall_;
-  Ring square_of_radius_;
-  boost::container::static_vector<Side, 2> sides_;
+  Near_rows rows_;
+  Near_equations<D, Ring> equations_;
   std::optional<Near_time> first_;
 };
 
@@ -227,6 +191,15 @@ class Near_time_search {
 bool is_before(const Near_time& x, const Near_time& y) {
   if (const auto order = x.root <=> y.root; order != 0) return order < 0;
   return std::tie(x.of_motion.size, x.of_wall.size) < std::tie(y.of_motion.size, y.of_wall.size);
+}
+
+template <int D>
+double approximate_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall) {
+  const Near_equations<D, double> equations(motion, wall);
+  double time = std::numeric_limits<double>::infinity();
+  for (const Near_row& row : rows_of(motion, wall.size()))
+    time = std::min(time, root_in_doubles(equations.of(row)));
+  return time;
 }
 
 template <int D>
@@ -255,6 +228,9 @@ bool is_later(const Thick_motion<D>& motion, std::span<const Point<D>> wall, dou
 
 template bool is_later<2>(const Thick_motion<2>&, std::span<const Point<2>>, double);
 template bool is_later<3>(const Thick_motion<3>&, std::span<const Point<3>>, double);
+
+template double approximate_near_time<2>(const Thick_motion<2>&, std::span<const Point<2>>);
+template double approximate_near_time<3>(const Thick_motion<3>&, std::span<const Point<3>>);
 
 template Near_time find_near_time<2>(const Thick_motion<2>&, std::span<const Point<2>>);
 template Near_time find_near_time<3>(const Thick_motion<3>&, std::span<const Point<3>>);

@@ -28,9 +28,14 @@ bool is_before(const Near_time& x, const Near_time& y);
 ///        three are not collinear
 /// \pre where the motion starts, it is at least as far from the wall as its radius; the hull of the motion is
 ///        nearer
-/// Cost: ring numbers for each feature of the wall.
+/// Cost: some us of intervals, and ring numbers for the features that meet at about the same time; for all
+/// where rounding hides the time.
 template <int D>
 Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall);
+
+/// About when that is, in doubles; infinity if rounding hides it.
+template <int D>
+double approximate_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall);
 
 /// True proves that a wall is no reason to stop before a contact that is known, nor at it: what is swept
 /// until the next double after its time keeps the distance.

@@ -6,6 +6,7 @@
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "near_normal.h"
 #include "near_time.h"
@@ -95,10 +96,19 @@ class Thick_sweep {
         });
     counts.flooded_cells += cells.size();
     if (close_) return {close_, true};
+    // What is met first excludes most others.
+    std::ranges::sort(blocking_, {}, &Blocking_wall::about_when);
+    for (const Blocking_wall& blocking : blocking_) keep_first(blocking.wall, blocking.order);
     return {first_, false};
   }
 
  private:
+  struct Blocking_wall {
+    Half_facet wall;
+    Canonical_order<D> order;
+    double about_when;
+  };
+
   void look_at(Half_facet wall) {
     const Points<D> corners = corners_of(snapshot_, wall);
     if (close_ && distance_bound<D>(in<D>(before_), in<D>(corners)) > close_->distance) return;
@@ -106,7 +116,12 @@ class Thick_sweep {
     if (!is_far(before_, corners))
       keep_nearest(wall, corners);
     else if (!close_ && is_part_near(corners))
-      keep_first(wall, corners);
+      keep_blocking(wall, corners);
+  }
+
+  void keep_blocking(Half_facet wall, const Points<D>& corners) {
+    const Canonical_order<D> order(corners);
+    blocking_.push_back({wall, order, approximate_near_time<D>(motion_, order.corners())});
   }
 
   bool is_far(const auto& hull, const Points<D>& corners) {
@@ -166,9 +181,8 @@ class Thick_sweep {
     return static_cast<Body_feature>(of_motion.size - 1);
   }
 
-  void keep_first(Half_facet wall, const Points<D>& corners) {
-    if (first_ && is_later<D>(motion_, in<D>(corners), first_->time)) return;
-    const Canonical_order<D> order(corners);
+  void keep_first(Half_facet wall, const Canonical_order<D>& order) {
+    if (first_ && is_later<D>(motion_, order.corners(), first_->time)) return;
     const Near_time near = find_near_time<D>(motion_, order.corners());
     Contact<D> contact;
     contact.set_time(to_time(near.root));
@@ -187,6 +201,7 @@ class Thick_sweep {
   const Thick_motion<D>& motion_;
   Swept_part part_;
   Points<D> before_;
+  std::vector<Blocking_wall> blocking_;
   std::optional<Contact<D>> close_, first_;
   Distance_counts distance_counts_;
 };
