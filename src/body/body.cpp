@@ -67,7 +67,7 @@ template <int D>
 [[gnu::noinline]] void step_out_of_region(detail::Body_state<D>& body, std::span<const Point<D>> targets,
                                           const Body_options& options, Step_report<D>& report,
                                           Body_counts& counts) {
-  if (!body.thick.are_none()) detail::check_thick_sweep(options.sweep);  // such a body has no region
+  if (!body.thick.are_none()) detail::check_thick_sweep(options.sweep);
   check_targets<D>(targets);
   if (options.sweep.search) [[unlikely]]
     detail::check_search(*options.sweep.search);

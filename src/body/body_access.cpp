@@ -2,8 +2,6 @@
 // The box that a body may reach, its cells, chains and supporting walls, read and written by edits.
 #include <cellwalk/internal/body/body_access.h>
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -79,9 +77,7 @@ double Body_access<D>::radius_of_vertex(std::uint32_t vertex) const {
 
 template <int D>
 double Body_access<D>::largest_radius() const {
-  const std::span<const double> radii = state_->thick.radii();
-  return std::accumulate(radii.begin(), radii.end(), state_->thick.radius_of_vertices(),
-                         [](double x, double y) { return std::max(x, y); });
+  return state_->thick.largest();
 }
 
 template <int D>

@@ -8,9 +8,7 @@
 
 namespace cellwalk::detail {
 
-Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices,
-                             bool has_radii) {
-  if (has_radii) chosen.body_region = chosen.star_regions = false;
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices) {
   if (vertices < chosen.least_vertices_of_parts ||
       topology.edges().size() >= chosen.least_edges_a_vertex * vertices)
     return chosen;
@@ -30,7 +28,7 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, const Locator<D>& loca
   chains = std::move(registered.chains);
   pool.prepare(of_snapshot, particles);
   // Without regions the first step tests all edges.
-  const Body_certificates used = worthwhile(of_body, topology, positions.size(), !thick.are_none());
+  const Body_certificates used = worthwhile(of_body, topology, positions.size());
   if (!used.body_region && !used.star_regions)
     for (std::uint32_t e = 0; e < chains.size(); ++e) read_corners(e);
 }
@@ -48,18 +46,18 @@ Body_state<D>::Body_state(const Snapshot<D>& of_snapshot, std::vector<Point<D>> 
       corners_epoch(of_snapshot.geometry_epoch()),
       supporting_walls(topology.faces().size()),
       thick(radii, topology, positions.size()),
-      region(positions.size(), topology.edges().size(),
-             worthwhile(of_body, topology, positions.size(), !thick.are_none())),
-      pool(positions.size(), worthwhile(of_body, topology, positions.size(), !thick.are_none())),
+      region(positions.size(), topology.edges().size(), worthwhile(of_body, topology, positions.size()),
+             thick.largest()),
+      pool(positions.size(), worthwhile(of_body, topology, positions.size()), thick.largest()),
       certificates(of_body) {}
 
 template <int D>
 void Body_state<D>::begin_regions(const Body_certificates& chosen) {
   give_region_up();
   certificates = chosen;
-  const Body_certificates used = worthwhile(chosen, topology, positions.size(), !thick.are_none());
-  region = Region_cache<D>(positions.size(), chains.size(), used);
-  pool = Region_pool<D>(positions.size(), used);
+  const Body_certificates used = worthwhile(chosen, topology, positions.size());
+  region = Region_cache<D>(positions.size(), chains.size(), used, thick.largest());
+  pool = Region_pool<D>(positions.size(), used, thick.largest());
   pool.prepare(*snapshot, particles);
 }
 
@@ -215,6 +213,7 @@ template <int D>
 void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
   if (!region.is_vertex_stale(vertex)) return;
   region.pass_mark_on(vertex, topology);
+  thick.forget_vertex(vertex);
   Particle<D>& particle = particles[vertex];
   // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides
   // depends on it.
@@ -230,6 +229,7 @@ void Body_state<D>::refresh_edge(std::uint32_t edge, Body_counts& counts) {
   refresh_vertex(v, counts);
   if (!region.is_edge_stale(edge)) return;
   region.mark_edge(edge, false);
+  thick.forget(topology, edge);
   const Particle<D>&p = particles[u], &q = particles[v];
   // Between points inside of a cell there is but one chain.
   if (p.dimension == D && q.dimension == D && p.cell == q.cell) return set_chain(edge, {});

@@ -69,10 +69,8 @@ struct Move_scratch {
   }
 };
 
-/// Those of the chosen certificates that are worth their cost for a body. A region without walls says nothing
-/// about those nearer than a radius.
-Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices,
-                             bool has_radii);
+/// Those of the chosen certificates that are worth their cost for a body.
+Body_certificates worthwhile(Body_certificates chosen, const Body_topology& topology, std::size_t vertices);
 
 template <int D>
 struct Body_state {

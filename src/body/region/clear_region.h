@@ -67,6 +67,15 @@ class Clear_region {
     planes_.push_back(plane);
   }
 
+  /// Moves all bounds inwards, so that walls keep that distance from the hull of points in it.
+  ///
+  /// Where the product of a point y of the box with a normal n, as rounded, is less than `inside`, y is before
+  /// the plane. If e bounds the rounding of such products, n.y < inside - e will do exactly. So it does for
+  /// all y within r of x where n.x as rounded is less than inside - 2e - r|n|.
+  /// \param r finite, greater than 0
+  /// \pre the box is finite
+  void move_inwards(double r);
+
   /// All that a copy has.
   template <class Archive>
   void archive(Archive& a) {
@@ -125,6 +134,7 @@ struct Region_request {
   double steps_around = 4;              ///< and a margin of this number of steps on all sides
   double margin = 0;                    ///< and one more, of this length
   bool keeps_all = false;               ///< without one of the positions, there is no region
+  double radius = 0;                    ///< the distance of walls from the hull of points held
   std::size_t most_planes = 6;          ///< it is cut by; at most Clear_region::most_planes
   std::size_t most_cells = 64;          ///< it may be looked for in, or clusters of cells
   /// Look for walls by clusters of cells; more than most_walls walls that the box meets are too many.

@@ -48,6 +48,7 @@ std::optional<Clear_region<D>> Region_cache<D>::search(const Snapshot<D>& snapsh
   request.targets = targets;
   request.most_cells = std::clamp(cells_per_vertex * positions.size(), least_cells, most_cells);
   request.steps_ahead = steps_ahead_;
+  request.radius = radius_;
   request.by_clusters = certificates_.clusters && has_parts();
   if (request.by_clusters) {
     request.most_cells = most_body_clusters;

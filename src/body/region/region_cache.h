@@ -21,8 +21,10 @@ namespace cellwalk::detail {
 template <int D>
 class Region_cache {
  public:
-  Region_cache(std::size_t vertices, std::size_t edges, const Body_certificates& certificates)
+  /// \param radius that walls keep from the body
+  Region_cache(std::size_t vertices, std::size_t edges, const Body_certificates& certificates, double radius)
       : certificates_(certificates),
+        radius_(radius),
         is_outside_(vertices),
         outside_neighbours_(vertices),
         is_vertex_stale_(vertices),
@@ -89,7 +91,7 @@ class Region_cache {
   bool is_vertex_stale(std::uint32_t vertex) const { return is_vertex_stale_[vertex]; }
   bool is_edge_stale(std::uint32_t edge) const { return is_edge_stale_[edge]; }
   void mark_edge(std::uint32_t edge, bool is_stale) { is_edge_stale_[edge] = is_stale; }
-  /// All that a copy has, but the certificates, by which it was made.
+  /// All that a copy has, but the certificates and the radius, by which it was made.
   template <class Archive>
   void archive(Archive& a) {
     a(region_, outside_, is_outside_, outside_neighbours_, are_all_stale_, is_vertex_stale_, is_edge_stale_);
@@ -112,6 +114,7 @@ class Region_cache {
   bool has_parts() const { return is_outside_.size() >= certificates_.least_vertices_of_parts; }
 
   Body_certificates certificates_;
+  double radius_;
   std::optional<Clear_region<D>> region_;
   std::uint32_t outside_ = 0;  ///< vertices not in it
   std::vector<char> is_outside_;

@@ -28,8 +28,8 @@ constexpr double least_margin = 0.05, most_margin = 16;
 }  // namespace
 
 template <int D>
-Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates)
-    : by_clusters_(certificates.clusters) {
+Region_pool<D>::Region_pool(std::size_t vertices, const Body_certificates& certificates, double radius)
+    : by_clusters_(certificates.clusters), radius_(radius) {
   if (!certificates.star_regions || vertices < certificates.least_vertices_of_parts) return;
   known_.resize(vertices);
   for (Known& known : known_) known = Known{none, none, none, none};
@@ -167,6 +167,7 @@ bool Region_pool<D>::search(const Snapshot<D>& snapshot, const Particle<D>& part
   request.most_walls = most_walls;
   request.margin = margin_ * size;
   request.keeps_all = true;
+  request.radius = radius_;
   request.most_planes = Clear_region<D>::most_planes;
   Region_effort effort;
   auto found = find_clear_region(snapshot, particle, request, effort);

@@ -21,7 +21,8 @@ namespace cellwalk::detail {
 template <int D>
 class Region_pool {
  public:
-  Region_pool(std::size_t vertices, const Body_certificates& certificates);
+  /// \param radius that walls keep from the body
+  Region_pool(std::size_t vertices, const Body_certificates& certificates, double radius);
 
   /// True if regions of parts of the body are used: it is large enough, and the certificates include them.
   bool is_used() const { return is_used_; }
@@ -98,6 +99,7 @@ class Region_pool {
 
   bool is_used_ = false;
   bool by_clusters_;
+  double radius_;
   std::vector<Known> known_;         ///< of each vertex
   std::vector<std::uint8_t> wait_;   ///< of each vertex, moves until it may search again
   std::vector<std::uint8_t> waits_;  ///< such moves after its next search in vain

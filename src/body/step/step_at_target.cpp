@@ -180,7 +180,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   const Particle<D> from = body_.particles[vertex];
   Move_scratch<D>& scratch = body_.scratch;
   const std::uint64_t signs_before = signs();
-  if (!body_.thick.are_none() && is_way_close(vertex, target, tried)) return tried;
+  if (!body_.thick.are_none() && !is_inside && is_way_close(vertex, target, tried)) return tried;
   if (settled.to) {
     to = *settled.to;
     had_choice = false;
@@ -241,6 +241,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
 template <int D>
 bool Target_step<D>::is_way_close(std::uint32_t vertex, const Point<D>& target, Tried_move<D>& tried) {
   const auto corners = body_.topology.corners_of(vertex);
+  for (const Corner& corner : corners) body_.refresh_edge(corner.edge, counts_);
   const auto is_free = [&](const Corner& corner) {
     return body_.thick.is_edge_free(body_, vertex, corner, target, Swept_part::way);
   };

@@ -114,12 +114,19 @@ std::optional<Contact<D>> contact_on_sides(Body_state<D>& body, Move_scratch<D>&
   return first;
 }
 
+template <int D>
+void refresh_star(Body_state<D>& body, std::uint32_t vertex, Body_counts& counts) {
+  body.refresh_vertex(vertex, counts);
+  for (const Corner& corner : body.topology.corners_of(vertex)) body.refresh_edge(corner.edge, counts);
+}
+
 /// The first contact of a vertex if one of its edges or faces with a radius is in the way. If none is, those
 /// without one are left.
 template <int D>
 std::optional<Contact<D>> contact_of_thick(Body_state<D>& body, Move_scratch<D>& scratch,
                                            std::uint32_t vertex, const Point<D>& target,
                                            const Sweep_options& options, Body_counts& counts, bool any) {
+  refresh_star(body, vertex, counts);
   if (body.thick.is_free(body, vertex, target, options.sweep)) return {};
   if (any) return Contact<D>{};
   auto first = body.thick.first_contact(body, vertex, target, options.sweep, counts.edges);
@@ -165,8 +172,7 @@ template <int D>
 std::optional<Contact<D>> find_contact(Body_state<D>& body, Move_scratch<D>& scratch, std::uint32_t vertex,
                                        const Point<D>& target, const Sweep_options& options,
                                        Body_counts& counts, bool any, Particle<D>& to) {
-  body.refresh_vertex(vertex, counts);
-  for (const Corner& corner : body.topology.corners_of(vertex)) body.refresh_edge(corner.edge, counts);
+  refresh_star(body, vertex, counts);
   Walk_result<D> walked;
   const auto move = [&](const Sweep_options& chosen, bool some, Sides_taken* choices) {
     return contact_on_sides(body, scratch, vertex, target, chosen, counts, some, to, choices, walked);

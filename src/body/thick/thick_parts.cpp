@@ -81,6 +81,20 @@ double Thick_parts<D>::radius_of_face(const Body_topology& topology, std::uint32
 }
 
 template <int D>
+double Thick_parts<D>::largest() const {
+  return radii_.empty() ? of_vertices_ : std::max(of_vertices_, std::ranges::max(radii_));
+}
+
+template <int D>
+void Thick_parts<D>::forget(const Body_topology& topology, std::uint32_t edge) {
+  if (are_none()) return;
+  near_edges_[edge].forget();
+  if (near_faces_.empty()) return;
+  for (const Face_corner& at : topology.face_corners_of(topology.edges()[edge][0]))
+    near_faces_[at.face].forget();
+}
+
+template <int D>
 double Thick_parts<D>::radius_at(const Body_topology& topology, std::uint32_t vertex) const {
   const auto corners = topology.corners_of(vertex);
   if (corners.empty()) return of_vertices_;

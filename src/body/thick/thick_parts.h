@@ -35,6 +35,7 @@ class Thick_parts {
   /// Of vertices without edges.
   double radius_of_vertices() const { return of_vertices_; }
   std::span<const double> radii() const { return radii_; }
+  double largest() const;
 
   /// The least of its sides, see Body_topology::sides().
   double radius_of_face(const Body_topology& topology, std::uint32_t face) const;
@@ -56,7 +57,12 @@ class Thick_parts {
   double radius_at(const Body_topology& topology, std::uint32_t vertex) const;
   /// True if some edge or, for Sweep::faces, face of a vertex has no radius, or the vertex has neither.
   bool has_thin(const Body_topology& topology, std::uint32_t vertex, Sweep sweep) const;
-  /// Faces were left alone: their lists of walls are void.
+  /// Moves without a test make lists of walls void: those of an edge and of the faces at it, of a vertex
+  /// without edges, or of all faces.
+  void forget(const Body_topology& topology, std::uint32_t edge);
+  void forget_vertex(std::uint32_t vertex) {
+    if (!near_vertices_.empty()) near_vertices_[vertex].forget();
+  }
   void forget_faces() { near_faces_.clear(); }
 
  private:
