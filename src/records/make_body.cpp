@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -30,6 +31,27 @@ void check(const Body_parts<D>& parts) {
   };
   for (std::size_t i = 0; i < parts.polygons.size(); ++i) check_indices("polygon", i, parts.polygons[i]);
   for (std::size_t i = 0; i < parts.segments.size(); ++i) check_indices("segment", i, parts.segments[i]);
+  if (!parts.radii.empty() && parts.radii.size() != parts.segments.size())
+    refuse(fmt::format("{} radii for {} segments: give one for each, or none", parts.radii.size(),
+                       parts.segments.size()));
+  for (std::size_t i = 0; i < parts.radii.size(); ++i)
+    if (!(parts.radii[i] >= 0 && std::isfinite(parts.radii[i])))
+      refuse(fmt::format("the radius of segment {} takes a finite number of at least 0, not {}", i,
+                         parts.radii[i]));
+}
+
+/// The radii of edges in ascending order; none if all are 0.
+std::vector<double> radii_of(const std::vector<Edge>& edges, const std::vector<Edge>& segments,
+                             const std::vector<double>& given) {
+  if (std::ranges::all_of(given, [](double r) { return r == 0; })) return {};
+  std::vector<double> radii(edges.size(), 0.0);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Edge edge{std::min(segments[i][0], segments[i][1]), std::max(segments[i][0], segments[i][1])};
+    if (edge[0] == edge[1]) continue;
+    double& radius = radii[static_cast<std::size_t>(std::ranges::lower_bound(edges, edge) - edges.begin())];
+    radius = std::max(radius, given[i]);
+  }
+  return radii;
 }
 
 /// Collects the parts of a body.
@@ -110,7 +132,9 @@ Made_body<D> make_body(Body_parts<D> parts) {
   Maker<D> maker;
   for (const auto& loop : parts.polygons) maker.polygon(loop);
   for (const Edge& s : parts.segments) maker.segment(s[0], s[1]);
-  return maker.result(std::move(parts.points));
+  Made_body<D> made = maker.result(std::move(parts.points));
+  made.body.radii = radii_of(made.body.edges, parts.segments, parts.radii);
+  return made;
 }
 
 template Made_body<2> make_body(Body_parts<2>);

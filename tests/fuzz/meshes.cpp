@@ -6,6 +6,7 @@
 #include <cellwalk/io/mesh_file.h>
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "fuzz/targets.h"
@@ -67,6 +68,8 @@ void surface(std::string_view bytes, io::Surface_format format) {
       const Surface_soup soup = io::parse_polygons("in", bytes, format, report, &body);
       demand_well_formed(soup);
       for (const auto& edge : body.edges) demand_below(edge, soup.points.size());
+      demand(body.radii.empty() || body.radii.size() == body.edges.size(), "edges with and without a radius");
+      for (const double r : body.radii) demand(r >= 0 && std::isfinite(r), "a radius that is none");
       for (const auto& p : soup.points) demand(!planar || p[2] == 0, "a body of the plane that leaves it");
     });
 }

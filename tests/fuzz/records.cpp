@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -89,6 +90,11 @@ void csv(std::string_view bytes) {
         demand(!number || std::isfinite(number.value), "a number that is not finite");
       }
     }
+    if (const auto column = table.find_column("radius"))
+      for (std::size_t row = 0; row < table.row_count(); ++row) {
+        const io::Parsed_number radius = io::radius_of(table, row, *column);
+        demand(!radius || (radius.value >= 0 && std::isfinite(radius.value)), "a radius that is none");
+      }
     query<2, 2>(table, {"a", "b"});
     query<3, 2>(table, {"a", "b"});
     query<2, 3>(table, {"p", "t", "q"});

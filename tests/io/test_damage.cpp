@@ -97,8 +97,9 @@ TEST(DamagedFiles, Bodies) {
   expect_bodies_or_reasons("b.ply",
                            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                            "property float z\nelement edge 2\nproperty int vertex1\nproperty int vertex2\n"
-                           "end_header\n0 0 0\n1 0 0\n0 1 0\n0 1\n2 1\n");
-  expect_bodies_or_reasons("b.csv", "x,y,name\n0,1,a\n1/2,0x1p-3,b\n-1e5,+3,c\n# no more\n");
+                           "property float radius\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 1 0.5\n2 1 1e2\n");
+  expect_bodies_or_reasons("b.csv",
+                           "x,y,name,radius\n0,1,a,0.5\n1/2,0x1p-3,b,0x1p-3\n-1e5,+3,c,\n# no more\n");
 }
 
 TEST(DamagedFiles, DomainsOfThePlane) {

@@ -6,6 +6,7 @@
 #include <cellwalk/records/body_soup.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -22,6 +23,10 @@ std::string flaw(const Body_soup<D>& body) {
     if (e[0] >= e[1] || e[1] >= body.points.size()) return "edge " + std::to_string(i) + " is none";
     if (i > 0 && !(body.edges[i - 1] < e)) return "edge " + std::to_string(i) + " is not in order";
   }
+  if (body.radii.size() > 1 && body.radii.size() != body.edges.size())
+    return "as many radii as edges are needed";
+  for (const double r : body.radii)
+    if (!(r >= 0 && std::isfinite(r))) return "a radius is negative or not finite";
   if (D == 2 && !body.faces.empty()) return "a body of the plane has faces";
   const std::set<Edge> edges(body.edges.begin(), body.edges.end());
   std::set<std::array<std::uint32_t, 3>> seen;

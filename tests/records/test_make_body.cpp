@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -86,16 +87,40 @@ TEST(MakeBody, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refusal<3>({broken, {}, {}}), "body: point 1 has a coordinate that is not finite");
 }
 
+TEST(MakeBody, GivesAnEdgeTheLargestRadiusOfItsSegments) {
+  Body_parts<3> parts{points<3>(5), {{0, 1, 2}}, {{3, 1}, {0, 1}, {1, 3}, {4, 4}}, {0.25, 0.5, 0.75, 9}};
+  const auto made = make_body(parts);
+  EXPECT_EQ(made.body.edges, (Edges{{0, 1}, {0, 2}, {1, 2}, {1, 3}}));
+  EXPECT_EQ(made.body.radii, (std::vector<double>{0.5, 0, 0, 0.75}));
+  parts.radii = {0, -0.0, 0, 0};
+  EXPECT_TRUE(make_body(parts).body.radii.empty());
+}
+
+TEST(MakeBody, RefusesRadiiThatAreNone) {
+  const std::string what = "body: the radius of segment 1 takes a finite number of at least 0, not ";
+  const Body_parts<2> parts{points<2>(3), {}, {{0, 1}, {1, 2}}, {1, -1}};
+  EXPECT_EQ(refusal<2>(parts), what + "-1");
+  EXPECT_EQ(refusal<2>({parts.points, {}, parts.segments, {1, std::numeric_limits<double>::quiet_NaN()}}),
+            what + "nan");
+  EXPECT_EQ(refusal<2>({parts.points, {}, parts.segments, {1, std::numeric_limits<double>::infinity()}}),
+            what + "inf");
+  EXPECT_EQ(refusal<2>({parts.points, {}, parts.segments, {1}}),
+            "body: 1 radii for 2 segments: give one for each, or none");
+}
+
 /// Random parts against sets: every side and segment is an edge, every edge comes from somewhere, and so on.
 TEST(MakeBody, AgreesWithSetsOnRandomParts) {
   Random random(3);
-  std::size_t repeated = 0, degenerate = 0, cut = 0, null = 0, unused = 0;
+  std::size_t repeated = 0, degenerate = 0, cut = 0, null = 0, unused = 0, thick = 0;
   for (int round = 0; round < 300; ++round) {
     Body_parts<3> parts;
     const std::uint64_t n = 1 + random.below(9);
     parts.points = points<3>(n);
     const auto index = [&] { return static_cast<std::uint32_t>(random.below(n)); };
-    for (std::uint64_t k = random.below(6); k > 0; --k) parts.segments.push_back({index(), index()});
+    for (std::uint64_t k = random.below(6); k > 0; --k) {
+      parts.segments.push_back({index(), index()});
+      parts.radii.push_back(static_cast<double>(random.below(4)));
+    }
     for (std::uint64_t k = random.below(6); k > 0; --k) {
       parts.polygons.emplace_back();
       for (std::uint64_t c = random.below(6); c > 0; --c) parts.polygons.back().push_back(index());
@@ -114,6 +139,15 @@ TEST(MakeBody, AgreesWithSetsOnRandomParts) {
     for (const auto& f : made.body.faces)
       for (std::size_t i = 0; i < 3; ++i) add(f[i], f[(i + 1) % 3]);
     EXPECT_EQ(made.body.edges, Edges(given.begin(), given.end()));
+    std::map<std::array<std::uint32_t, 2>, double> radii;
+    for (std::size_t i = 0; i < parts.segments.size(); ++i) {
+      const auto [u, v] = parts.segments[i];
+      double& radius = radii[{std::min(u, v), std::max(u, v)}];
+      radius = std::max(radius, parts.radii[i]);
+    }
+    for (std::size_t e = 0; e < made.body.radii.size(); ++e)
+      EXPECT_EQ(made.body.radii[e], radii[made.body.edges[e]]);
+    thick += !made.body.radii.empty();
     repeated += made.repeated_faces, degenerate += made.degenerate_faces, cut += made.cut_polygons;
     null += made.null_edges, unused += made.unused_points;
   }
@@ -122,6 +156,7 @@ TEST(MakeBody, AgreesWithSetsOnRandomParts) {
   EXPECT_GE(cut, 100u);
   EXPECT_GE(null, 100u);
   EXPECT_GE(unused, 100u);
+  EXPECT_GE(thick, 100u);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ struct Body_file {
 /// Reads a body. All features of the file become part of it: lines and polylines (OBJ `l`, PLY `edge`, OFF
 /// facets of two corners, line elements of Gmsh, segments of .poly and .wkt), polygons, and the edges and
 /// facets of volume cells. A .csv with columns x,y,z is a polyline through its rows. Bodies need not be
-/// closed, manifold or of one part; vertices without edges and vertices with equal coordinates are kept. See
-/// docs/formats.md.
+/// closed, manifold or of one part; vertices without edges and vertices with equal coordinates are kept.
+/// Edges of PLY and CSV may have a radius. See docs/formats.md.
 ///
 /// A 2D body has z zero throughout (a .csv has no z), and only the sides of polygons.
 /// \throw Error(input) if the file is unreadable, broken, of an unknown format or without vertices, or if a

@@ -33,6 +33,9 @@ struct Body_parts {
   std::vector<Point<D>> points;
   std::vector<std::vector<std::uint32_t>> polygons;
   std::vector<std::array<std::uint32_t, 2>> segments;
+  /// Of the segments, finite and at least 0: none, or one for each. An edge has the largest radius of its
+  /// segments; a side of a polygon that is no segment has 0.
+  std::vector<double> radii = {};
 };
 
 /// A body, and counts of the parts that were changed or omitted.
@@ -52,7 +55,8 @@ struct Made_body {
 /// by two cells is split consistently; the diagonals become edges. A polygon of two corners is an edge, one
 /// of one corner is ignored. In 2D a polygon contributes its sides only.
 /// \throw Error(input) naming the point, polygon or segment: a coordinate that is not finite, an index out of
-///        range, more points than 32-bit indices can address
+///        range, more points than 32-bit indices can address, a radius that is negative or not finite,
+///        another number of radii than of segments
 /// Cost: n log n in the number of sides.
 template <int D>
 Made_body<D> make_body(Body_parts<D> parts);

@@ -105,6 +105,11 @@ Parsed_number parse_number(std::string_view text) {
   return {*value, {}};
 }
 
+std::string radius_problem(double number) {
+  if (number >= 0 && std::isfinite(number)) return {};
+  return fmt::format("radius: takes a finite number of at least 0, not {}", number);
+}
+
 std::string shortest(double value) { return fmt::format("{}", value); }
 
 std::string hexadecimal(double value) { return fmt::format("{:a}", value); }

@@ -8,6 +8,12 @@
 
 namespace cellwalk::io {
 
+Parsed_number radius_of(const Csv_table& table, std::size_t row, std::size_t column) {
+  Parsed_number number = table.number(row, column);
+  if (number) number.reason = radius_problem(number.value);
+  return number;
+}
+
 template <int D, std::size_t N>
 std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
                                         const std::array<std::string_view, N>& prefixes, double radius) {
@@ -33,11 +39,9 @@ std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
       }
     rows[r].radius = radius;
     if (!radii || !rows[r].error.empty()) continue;
-    const Parsed_number number = table.number(r, *radii);
+    const Parsed_number number = radius_of(table, r, *radii);
     rows[r].radius = number.value;
     rows[r].error = number.reason;
-    if (number.reason.empty() && number.value < 0)
-      rows[r].error = fmt::format("radius: takes a finite number of at least 0, not {}", number.value);
   }
   return rows;
 }

@@ -26,6 +26,7 @@ namespace {
 struct Content {
   Body_parts<3> parts;
   bool has_volumes = false;  ///< then inner facets occur twice, as they should
+  double radius = 0;         ///< of a vertex that is the whole body
 };
 
 void add_cells(Content& content, const Cell_soup<3>& cells) {
@@ -38,7 +39,8 @@ Content from_surface(const std::string& name, std::string_view bytes, Surface_fo
                      Read_report& report) {
   Body_elements lines{planar, {}};
   Surface_soup surface = parse_polygons(name, bytes, format, report, &lines);
-  return {{std::move(surface.points), std::move(surface.facets), std::move(lines.edges)}};
+  return {
+      {std::move(surface.points), std::move(surface.facets), std::move(lines.edges), std::move(lines.radii)}};
 }
 
 template <class Parse>
@@ -53,11 +55,28 @@ Content from_elements(const std::string& name, std::string_view bytes, Parse par
   return content;
 }
 
+/// Adds the radii of a polyline: of each row that of the edge to the next one. The last row may be without,
+/// and has none unless it is the only one.
+void add_radii(Content& content, const Csv_table& table, std::size_t column) {
+  const std::size_t rows = table.row_count();
+  for (std::size_t r = 0; r < rows; ++r) {
+    const bool is_last = r + 1 == rows;
+    if (is_last && table.field(r, column)->empty()) return;
+    const Parsed_number radius = radius_of(table, r, column);
+    if (!radius) fail(table.name(), table.line(r), radius.reason);
+    if (!is_last)
+      content.parts.radii.push_back(radius.value);
+    else if (rows == 1)
+      content.radius = radius.value;
+  }
+}
+
 template <int D>
 Content from_table(const std::string& name, std::string_view text, Read_report& report) {
   report.format = "CSV";
   Content content;
-  for (const auto& row : query_rows<D, 1>(Csv_table::parse(name, std::string(text)), {""})) {
+  const Csv_table table = Csv_table::parse(name, std::string(text));
+  for (const auto& row : query_rows<D, 1>(table, {""})) {
     if (!row.error.empty()) fail(name, row.line, row.error);
     Point<3> p{};
     std::copy(row.points[0].begin(), row.points[0].end(), p.begin());
@@ -65,6 +84,7 @@ Content from_table(const std::string& name, std::string_view text, Read_report& 
     if (i > 0) content.parts.segments.push_back({i - 1, i});
     content.parts.points.push_back(p);
   }
+  if (const auto column = table.find_column("radius")) add_radii(content, table, *column);
   return content;
 }
 
@@ -165,7 +185,7 @@ Body_parts<D> in_dimension(const std::string& name, Body_parts<3> parts) {
       check_planar(At_point{name, points.size()}, &planar, p);
       points.push_back({p[0], p[1]});
     }
-    return {std::move(points), std::move(parts.polygons), std::move(parts.segments)};
+    return {std::move(points), std::move(parts.polygons), std::move(parts.segments), std::move(parts.radii)};
   }
 }
 
@@ -191,6 +211,7 @@ Body_file<D> read_body(const std::filesystem::path& path) {
   Content content = content_at<D>(path, file.report, note);
   if (content.parts.points.empty()) fail(name, "holds no vertices: a body needs at least one");
   Made_body<D> made = make_body<D>(in_dimension<D>(name, std::move(content.parts)));
+  if (content.radius > 0) made.body.radii = {content.radius};
   file.report.points = made.body.points.size();
   file.report.cells = 0;
   file.report.facets = made.body.faces.size();

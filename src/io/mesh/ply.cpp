@@ -193,10 +193,14 @@ class Ply_reader {
   void edges(const Ply_element& element) {
     const auto first = element.find("vertex1", false), second = element.find("vertex2", false);
     if (!first || !second) in_->fail("the header gives edges no properties 'vertex1' and 'vertex2'");
+    const auto radius = element.find("radius", false);
     std::vector<double> row(element.properties.size());
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t j = 0; j < row.size(); ++j) row[j] = value(element.properties[j], "an edge");
       body_->edges.push_back({index("edge", i, row[*first]), index("edge", i, row[*second])});
+      body_->radii.push_back(radius ? row[*radius] : 0);
+      if (const std::string problem = radius_problem(body_->radii.back()); !problem.empty())
+        in_->fail(fmt::format("edge {}: {}", i, problem));
     }
   }
 

@@ -18,6 +18,7 @@ namespace cellwalk::io {
 struct Body_elements {
   bool planar = false;  ///< input: true for a 2D body, of which points with z other than 0 are refused
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< output: lines, cut into edges
+  std::vector<double> radii = {};                   ///< output: of the edges; none, or one for each
 };
 
 Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_report& report,

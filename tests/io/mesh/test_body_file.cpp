@@ -15,6 +15,7 @@ namespace {
 using Edges = std::vector<std::array<std::uint32_t, 2>>;
 using Faces = std::vector<std::array<std::uint32_t, 3>>;
 using Notes = std::vector<std::string>;
+using Radii = std::vector<double>;
 
 const std::string tetrahedron =
     "OVM ASCII\nVertices\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nEdges\n6\n0 1\n0 2\n0 3\n1 2\n1 3\n2 3\n"
@@ -149,6 +150,40 @@ TEST(BodyFile, ReadsPolylinesFromTables) {
   EXPECT_EQ(read<2>("c.csv", "x,y\n1,2\n").body.points, (std::vector<Point<2>>{{1, 2}}));
 }
 
+// A flag whose pole is thick.
+const std::string thick_ply = with(with(flag_ply, "element edge 1", "element edge 3"),
+                                   "property uchar red\nproperty int vertex2\nend_header",
+                                   "property float radius\nproperty int vertex2\nend_header") +
+                              "1 0.125 2\n2 0.5 3\n";
+
+TEST(BodyFile, ReadsRadiiOfEdges) {
+  const auto flag = read<3>("b.ply", with(thick_ply, "3 255 2", "3 0.25 2"));
+  EXPECT_EQ(flag.body.edges, flag_edges);
+  EXPECT_EQ(flag.body.radii, (Radii{0, 0, 0.125, 0.5})) << "sides of faces have none; the larger of two";
+  EXPECT_EQ(read<2>("b.ply", with(thick_ply, "3 255 2", "3 1e-3 2")).body.radii, (Radii{0, 0, 0.125, 0.5}));
+  EXPECT_EQ(read<3>("b.ply", with(thick_ply, "property float radius", "property float width")).body.radii,
+            Radii{});
+  EXPECT_EQ(read<3>("b.ply", flag_ply).body.radii, Radii{});
+
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty uchar x\nproperty uchar y\n"
+      "property uchar z\nelement edge 1\nproperty uchar vertex1\nproperty uchar vertex2\n"
+      "property double radius\nend_header\n";
+  bytes += std::string("\0\0\0\1\1\1\0\1\0\0\0\0\0\0\xc0\x3f", 16);
+  EXPECT_EQ(read<3>("b.ply", bytes).body.radii, Radii{0.125});
+}
+
+TEST(BodyFile, ReadsRadiiOfPolylines) {
+  const auto file = read<3>("c.csv", "x,radius,y,z\n0,1/4,0,0\n1,0x1p-3,0,0\n2,0,0,0\n3,,0,0\n");
+  EXPECT_EQ(file.body.edges, (Edges{{0, 1}, {1, 2}, {2, 3}}));
+  EXPECT_EQ(file.body.radii, (Radii{0.25, 0.125, 0}));
+  EXPECT_EQ(read<2>("c.csv", "x,y,radius\n0,0,2\n1,0,9\n").body.radii, Radii{2}) << "not of the last row";
+  EXPECT_EQ(read<2>("c.csv", "x,y,radius\n0,0,0\n1,0,-0\n2,0,9\n").body.radii, Radii{});
+  // A vertex that is the whole body.
+  EXPECT_EQ(read<2>("c.csv", "x,y,radius\n0,0,2\n").body.radii, Radii{2});
+  EXPECT_EQ(read<2>("c.csv", "x,y,radius\n0,0,\n").body.radii, Radii{});
+}
+
 TEST(BodyFile, ReadsCellsAndDomains) {
   const auto tetrahedra = read<3>("t.ovm", tetrahedron);
   EXPECT_EQ(tetrahedra.body.edges.size(), 6u);
@@ -200,6 +235,20 @@ TEST(BodyFile, RefusesWithFileAndLine) {
       {"b.csv", "x,y,z\n0,0,0\n\n0,one,0\n", "b.csv:4: y: 'one' is not a number that a double can hold"},
       {"b.csv", "x,y,z\n0,0\n", "b.csv:2: 2 fields, where the header has 3"},
       {"b.csv", "x,y,z\n0,inf,0\n", "b.csv:2: y: 'inf' is not finite"},
+      {"b.ply", with(thick_ply, "2 0.5 3", "2 -0.5 3"),
+       "b.ply:22: edge 2: radius: takes a finite number of at least 0, not -0.5"},
+      {"b.ply", with(thick_ply, "2 0.5 3", "2 nan 3"),
+       "b.ply:22: edge 2: radius: takes a finite number of at least 0, not nan"},
+      {"b.ply", with(thick_ply, "2 0.5 3", "2 inf 3"),
+       "b.ply:22: edge 2: radius: takes a finite number of at least 0, not inf"},
+      {"b.ply", with(thick_ply, "2 0.5 3", "2 wide 3"), "b.ply:22: an edge: 'wide' is not a number"},
+      {"b.csv", "x,y,z,radius\n0,0,0,-1\n1,0,0,\n",
+       "b.csv:2: radius: takes a finite number of at least 0, not -1"},
+      {"b.csv", "x,y,z,radius\n0,0,0,1\n\n1,0,0,inf\n", "b.csv:4: radius: 'inf' is not finite"},
+      {"b.csv", "x,y,z,radius\n0,0,0,\n1,0,0,\n",
+       "b.csv:2: radius: an empty field where a number is expected"},
+      {"b.csv", "x,y,z,radius\n0,0,0,1\n1,0,0,wide\n",
+       "b.csv:3: radius: 'wide' is not a number that a double can hold"},
       {"b.csv", "x,y,z\n", "b.csv: holds no vertices: a body needs at least one"},
       {"b.csv", " \n", "b.csv: is empty"},
       {"b.obj", "# nothing\n", "b.obj: holds no vertices: a body needs at least one"}};
@@ -222,7 +271,7 @@ TEST(BodyFile, CutShortNeverCrashes) {
                                [&](const std::string& part) { read_body<3>(folder.write(name, part)); });
   };
   EXPECT_GE(refused("b.off", flag_off), 19);
-  EXPECT_GE(refused("b.ply", flag_ply), 19);
+  EXPECT_GE(refused("b.ply", thick_ply), 19);
   EXPECT_GE(refused("b.obj", flag_obj), 3);
 }
 

@@ -25,6 +25,9 @@ struct Parsed_number {
 /// (`0x1.8p+1`), or a fraction `n/d` of integers of any length whose value is exactly a double.
 Parsed_number parse_number(std::string_view text);
 
+/// The reason why a number is no radius of a motion or an edge; empty if it is one: finite and at least 0.
+std::string radius_problem(double number);
+
 /// The shortest decimal text that reads back as the same double.
 std::string shortest(double value);
 

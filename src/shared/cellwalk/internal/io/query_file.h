@@ -23,6 +23,9 @@ template <int D, std::size_t N>
 std::vector<Query_row<D, N>> query_rows(const Csv_table& table,
                                         const std::array<std::string_view, N>& prefixes, double radius = 0);
 
+/// The radius of a row: a finite number of at least 0, or the reason why there is none.
+Parsed_number radius_of(const Csv_table& table, std::size_t row, std::size_t column);
+
 extern template std::vector<Query_row<2, 1>> query_rows(const Csv_table&,
                                                         const std::array<std::string_view, 1>&, double);
 extern template std::vector<Query_row<3, 1>> query_rows(const Csv_table&,
