@@ -43,6 +43,9 @@ Scene_bodies<D> load_bodies(const Scene<D>& scene, const std::string& scene_name
       io::Body_file<D> read = io::read_body<D>(*file);
       result.shapes.push_back(std::move(read.body));
       for (const std::string& note : read.report.notes) result.notes.push_back(key + ": " + note);
+      if (const auto& radius = scene.bodies[i].edge_radius; radius && !result.shapes.back().radii.empty())
+        result.notes.push_back(
+            fmt::format("{}: edge_radius {} instead of the radii of {}", key, *radius, *file));
       continue;
     }
     try {

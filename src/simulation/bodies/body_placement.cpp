@@ -25,7 +25,7 @@ template <int D>
 Body_soup<D> placed(const Body_soup<D>& shape, const Body_placement<D>& placement,
                     const Body_start<D>& start) {
   Body_soup<D> result = transformed(shape, placement);
-  if (start.edge_radius > 0) result.radii = {start.edge_radius};
+  if (start.edge_radius) result.radii = {*start.edge_radius};
   return result;
 }
 

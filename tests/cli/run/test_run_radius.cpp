@@ -32,6 +32,30 @@ TEST_F(RunRadius, ABodyAndACatheterKeepTheirDistance) {
   ASSERT_GT(contacts.size(), 1u);
 }
 
+/// A body of a file has the radii of its edges, scaled as it is, or that of the scene, whatever the scale.
+TEST_F(RunRadius, RadiiAreThoseOfTheFileUnlessTheSceneHasOne) {
+  write("rod.csv", "x,y,z,radius\n0,0,0,0.0625\n0.5,0,0,0.125\n1,0,0,\n");
+  const auto write_scene = [&](const std::string& keys) {
+    write("s.json", R"({"environment": {"generate": "hexes", "cells": 4}, "steps": 1, "time_step": 1e-9,
+      "output": {"picture": false},
+      "bodies": [{"file": "rod.csv", "scale": 2, )" +
+                        keys + "}]}");
+  };
+  const auto notes = [&] {
+    succeed({"run", "s.json", "-o", "out", "--force"});
+    return nlohmann::json::parse(text("out/run.json")).at("bodies").value("notes", nlohmann::json());
+  };
+  write_scene(R"("position": [1, 1, 0.25])");
+  EXPECT_EQ(notes(), nlohmann::json());
+  write_scene(R"("position": [1, 1, 0.2])");
+  expect_failure(5, {"run", "s.json", "-o", "thick"},
+                 {"s.json: bodies[0]: edge 1 of the body", "less than its radius 0.25"});
+  write_scene(R"("position": [1, 1, 0.2], "edge_radius": 0.1875)");
+  EXPECT_EQ(notes(), nlohmann::json{"bodies[0]: edge_radius 0.1875 instead of the radii of rod.csv"});
+  write_scene(R"("position": [1, 1, 0], "edge_radius": 0)");
+  EXPECT_EQ(notes(), nlohmann::json{"bodies[0]: edge_radius 0 instead of the radii of rod.csv"});
+}
+
 /// The facets that are nearer to the catheter than its radius stay open, and the table names what holds them.
 TEST_F(RunRadius, AValveShutsRoundACatheter) {
   succeed({"run", CELLWALK_SHIPPED_DATA "/valve.json", "-o", "out", "--set", "output.picture=false", "--set",

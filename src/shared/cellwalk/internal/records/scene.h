@@ -81,7 +81,7 @@ struct Body_start {
   std::optional<Particle_cloud> cloud{};     ///< copies, each with its own position and velocity
   std::optional<Guided_motion<D>> guided{};  ///< none: the body is thrown, and flies freely under gravity
   std::optional<Shape_material> material{};  ///< of a thrown body; none: it is rigid
-  double edge_radius = 0;                    ///< how far its edges keep from every wall
+  std::optional<double> edge_radius{};       ///< how far its edges keep from every wall; none: as the source
 };
 
 /// The steering of a catheter towards its waypoints.
