@@ -28,7 +28,8 @@ namespace cellwalk::python {
 namespace {
 
 template <int D>
-Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, const py::object& faces) {
+Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, const py::object& faces,
+                            const py::object& radius) {
   Body_parts<D> parts;
   const auto given = points_of<D>(points, "points");
   parts.points.assign(given.begin(), given.end());
@@ -46,7 +47,12 @@ Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, c
     for (std::size_t i = 0; i < table.rows; ++i)
       parts.polygons.emplace_back(table.row(i).begin(), table.row(i).end());
   }
-  return make_body(std::move(parts)).body;
+  const Radii radii(radius, parts.segments.size(), "edges");
+  const bool is_one_for_all = !py::isinstance<py::array>(radius);
+  if (!is_one_for_all) parts.radii.assign(radii.values().begin(), radii.values().end());
+  Body_soup<D> soup = make_body(std::move(parts)).body;
+  if (is_one_for_all) soup.radii = {radii[0]};
+  return soup;
 }
 
 template <std::size_t D>
@@ -93,10 +99,10 @@ void Any_body::reading(const Use& use) {
 }
 
 Any_body::Any_body(Held_world environment, const py::object& points, const py::object& edges,
-                   const py::object& faces)
+                   const py::object& faces, const py::object& radius)
     : environment_(std::move(environment)),
       body_(place(*environment_->world, [&]<int D>(std::integral_constant<int, D>) {
-        return soup_of_arrays<D>(points, edges, faces);
+        return soup_of_arrays<D>(points, edges, faces, radius);
       })) {}
 
 Any_body::Any_body(Held_world environment, const std::string& path)
@@ -160,6 +166,29 @@ py::array_t<std::uint32_t> Any_body::faces() const {
 
 std::size_t Any_body::vertex_count() const {
   return std::visit([](const auto& body) { return body.vertex_count(); }, body_);
+}
+
+py::array_t<double> Any_body::radii() {
+  std::vector<double> all;
+  reading([&](const auto& body, const auto&) {
+    for (std::size_t edge = 0; edge < body.edges().size(); ++edge) all.push_back(body.radius(edge));
+  });
+  return to_array(std::move(all));
+}
+
+void Any_body::set_radii(const py::object& radius) {
+  const std::size_t edges = std::visit([](const auto& body) { return body.edges().size(); }, body_);
+  const Radii radii(radius, edges, "Body.edges");
+  reading([&](auto& body, const auto&) { body.set_radii(radii.values()); });
+}
+
+py::array_t<double> Any_body::clearances(double up_to) {
+  std::vector<double> all;
+  reading([&](auto& body, const auto&) {
+    body.refresh(counts_);
+    all = body.clearances(up_to);
+  });
+  return to_array(std::move(all));
 }
 
 py::array Any_body::step(const py::object& targets, const Body_options& options) {

@@ -22,8 +22,8 @@ namespace cellwalk::python {
 /// A body of either dimension, and the counts of its moves.
 class Any_body {
  public:
-  Any_body(Held_world environment, const py::object& points, const py::object& edges,
-           const py::object& faces);
+  Any_body(Held_world environment, const py::object& points, const py::object& edges, const py::object& faces,
+           const py::object& radius);
   /// The body of a file.
   Any_body(Held_world environment, const std::string& path);
   static Any_body rope(Held_world environment, const py::object& path, double spacing);
@@ -32,6 +32,9 @@ class Any_body {
   py::array_t<std::uint32_t> edges() const;
   py::array_t<std::uint32_t> faces() const;
   std::size_t vertex_count() const;
+  py::array_t<double> radii();
+  void set_radii(const py::object& radius);
+  py::array_t<double> clearances(double up_to);
   py::array step(const py::object& targets, const Body_options& options);
   py::array_t<std::uint32_t> neighbours(std::uint32_t vertex) const;
   py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options);

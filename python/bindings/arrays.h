@@ -55,6 +55,8 @@ class Radii {
   ///        number of at least 0
   Radii(const py::handle& argument, std::size_t rows, const char* name_of_rows);
   double operator[](std::size_t row) const { return each_.empty() ? of_all_ : each_[row]; }
+  /// One for all rows, or one for each.
+  std::span<const double> values() const { return each_.empty() ? std::span(&of_all_, 1) : each_; }
   bool are_all_0() const { return each_.empty() && of_all_ == 0; }
 
  private:

@@ -46,21 +46,27 @@ void bind_bodies(py::module_& module) {
       module, "Body",
       "A body among walls: no wall ever crosses its vertices and edges, nor its faces while it is moved with "
       "sweep=\"faces\".")
-      .def(py::init<std::shared_ptr<Shared_world>, const py::object&, const py::object&, const py::object&>(),
-           py::arg("environment"), py::arg("points"), py::arg("edges") = py::none(),
-           py::arg("faces") = py::none(),
-           "Registers a body where it stands: points (N, dimension), edges (M, 2), faces (K, 3) or polygons "
-           "(K, k), whose "
-           "sides are edges too. OutsideError names a vertex that is not in free space, an edge that crosses "
-           "a wall, or a "
-           "face that a wall pierces.")
+      .def(
+          py::init<std::shared_ptr<Shared_world>, const py::object&, const py::object&, const py::object&,
+                   const py::object&>(),
+          py::arg("environment"), py::arg("points"), py::arg("edges") = py::none(),
+          py::arg("faces") = py::none(), py::arg("radius") = 0.0,
+          "Registers a body where it stands: points (N, dimension), edges (M, 2), faces (K, 3) or polygons "
+          "(K, k), whose sides are edges too. OutsideError names a vertex that is not in free space, an edge "
+          "that crosses a wall, or a face that a wall pierces.\n\n"
+          "radius: how far each edge keeps from every wall, exactly: a number, for vertices without edges, "
+          "too, or a float64 array with one for each row of edges; sides of faces that are no rows of edges "
+          "have 0, and of a row that is repeated the largest counts. OutsideError names an edge or a vertex "
+          "that is closer to a wall. With a radius, step() takes the rules \"slide\" and \"reject\" with "
+          "sweep=\"triangle\" and touch=\"pass\".")
       .def_static(
           "read",
           [](const std::shared_ptr<Shared_world>& environment, const py::object& path) {
             return Any_body(environment, std::string(py::str(path)));
           },
           py::arg("environment"), py::arg("path"),
-          "Registers the body of a mesh file or of a polyline in CSV.")
+          "Registers the body of a mesh file or of a polyline in CSV, with the radii that its edges have "
+          "there.")
       .def_static(
           "rope", &Any_body::rope, py::arg("environment"), py::arg("path"), py::arg("spacing"),
           "Registers a rope along a path, points (N, dimension): a polyline through all of them, with "
@@ -71,6 +77,19 @@ void bind_bodies(py::module_& module) {
           "float64 (N, dimension): a read-only view, no copy: it changes as the body moves.")
       .def_property_readonly("edges", &Any_body::edges, "uint32 (M, 2): ends, in ascending order.")
       .def_property_readonly("faces", &Any_body::faces, "uint32 (K, 3): corners.")
+      .def_property_readonly(
+          "radii", &Any_body::radii,
+          "float64 (M,): how far each edge keeps from every wall, in the order of edges; 0 where it may "
+          "touch walls. A new array: set_radii() changes them.")
+      .def(
+          "set_radii", &Any_body::set_radii, py::arg("radius"),
+          "Changes the radii: a number for all edges, and vertices without edges, or a float64 array (M,) in "
+          "the order of edges. OutsideError names the first edge or vertex that is closer to a wall than its "
+          "new radius; then nothing has changed.")
+      .def("clearances", &Any_body::clearances, py::arg("up_to"),
+           "float64 (M,): a lower bound of the distance of each edge to all walls, off by rounding only, or "
+           "up_to where it is farther from them. Never below the edge's radius, as far as that is below "
+           "up_to.")
       .def(
           "step",
           [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,

@@ -2,6 +2,7 @@
 // The properties of a batch of motions in Python, and its counts as dictionaries.
 #include "motions.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "module.h"
@@ -33,6 +34,15 @@ const py::object& Motions::times() {
   return time = std::move(all);
 }
 
+const py::object& Motions::distances() {
+  if (!distance.is_none()) return distance;
+  py::array_t<double> all(status.size());
+  double* const how_far = all.mutable_data();
+  std::fill_n(how_far, size(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& [row, at] : close) how_far[row] = at;
+  return distance = std::move(all);
+}
+
 py::dict to_dict(const Walk_counts& counts) {
   py::dict result = to_dict<Walk_counts>(counts);
   for (const auto& [name, count] : named_counts(counts.predicates)) result[py::str(name)] = count;
@@ -53,6 +63,10 @@ void bind_motions(py::module_& module) {
       .def_property_readonly(
           "time", [](Motions& motions) { return motions.times(); },
           "float64 (N,): the fraction of the motion that is free; 1 if it arrives, NaN if it was not made.")
+      .def_property_readonly(
+          "distance", [](Motions& motions) { return motions.distances(); },
+          "float64 (N,): how far a start that is closer to a wall than its radius (Status.CLOSE) is from the "
+          "nearest one, rounded down; NaN in other rows.")
       .def_readonly("cells", &Motions::cells,
                     "uint32 (N,): the number of cells that the moving point visited.")
       .def_readonly(

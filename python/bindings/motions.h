@@ -48,11 +48,14 @@ struct Motions {
   /// Row and time of each contact; `contacts` belongs to the caller.
   std::vector<std::pair<std::size_t, double>> stops;
   py::array_t<std::uint32_t> handles;  ///< Snapshot's names of the cells; none where no motion was made
-  py::object cell = py::none(), time = py::none();  ///< made when they are requested
+  /// Row and distance of each start that is closer to a wall than its radius.
+  std::vector<std::pair<std::size_t, double>> close = {};
+  py::object cell = py::none(), time = py::none(), distance = py::none();  ///< made when they are requested
 
   std::size_t size() const { return static_cast<std::size_t>(status.size()); }
   const py::object& cell_numbers();
   const py::object& times();
+  const py::object& distances();
 };
 
 /// True if all coordinates are finite, without a branch: x - x is 0 or not a number.
@@ -97,6 +100,7 @@ struct Motion_rows {
 template <int D, class Counts>
 struct Chunk {
   std::vector<Contact_row<D>> contacts;
+  std::vector<std::pair<std::size_t, double>> close;
   Counts counts;
 
   void add(const Snapshot<D>& snapshot, std::size_t row, const Contact<D>& contact) {
@@ -138,6 +142,7 @@ Motions run_batch(const std::shared_ptr<const Any_world>& world, std::mutex* own
     });
     for (const Chunk<D, Counts>& chunk : chunks) {
       contacts.insert(contacts.end(), chunk.contacts.begin(), chunk.contacts.end());
+      motions.close.insert(motions.close.end(), chunk.close.begin(), chunk.close.end());
       counts += chunk.counts;
     }
     for (const Contact_row<D>& contact : contacts) motions.stops.emplace_back(contact.row, contact.time);
@@ -162,6 +167,7 @@ Motions run_questions(const std::shared_ptr<const Any_world>& world, std::size_t
                 const Answer<D> answer = answer_row(snapshot, locator, row, chunk.counts);
                 if (answer.status == Motion_status::close) {
                   out.fail(row, answer.status);
+                  chunk.close.emplace_back(row, answer.contact->distance);
                   Contact<D> nearest = *answer.contact;
                   nearest.time = std::numeric_limits<double>::quiet_NaN();
                   chunk.add(snapshot, row, nearest);
