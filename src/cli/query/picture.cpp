@@ -6,11 +6,9 @@
 #include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/walk/strategy.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "cli/common/contact_kind_names.h"
+#include "picture_motion.h"
 #include "picture_plot.h"
 
 namespace cellwalk::cli {
@@ -82,17 +80,6 @@ std::set<Cell> star_of(const Snapshot<2>& snapshot, const std::set<std::uint32_t
         result.insert(cell);
   }
   return result;
-}
-
-std::string title_of(std::size_t row, const Answer<2>& answer, const char* mover) {
-  if (answer.cell == Cell::none) return fmt::format("row {}: does not start in free space", row);
-  const std::string cells =
-      fmt::format("{} visits {} {}", mover, answer.cells, answer.cells == 1 ? "cell" : "cells");
-  if (!answer.contact) return fmt::format("row {}: free; {}", row, cells);
-  return fmt::format("row {}: contact with {} {} at time {:.4g}; {}", row,
-                     answer.contact->kind == Contact_kind::edge ? "an" : "a",
-                     contact_kind_names[static_cast<std::size_t>(answer.contact->kind)], answer.contact->time,
-                     cells);
 }
 
 void add_contact(Query_plot& plot, const Answer<2>& answer) {
@@ -183,6 +170,42 @@ void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Loc
   plot.point(t, "t", motion);
   plot.point(q, "q", motion);
   plot.write(file, title_of(row, answer, "p"));
+}
+
+void write_thick_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
+                         std::size_t row, const Pictured_motion<2>& shown, const Answer<2>& answer) {
+  const Point<2>&from = shown.points[0], &to = shown.points[1];
+  const double r = shown.radius;
+  std::vector<Point<2>> within{from};  // all that is to be seen
+  for (const Point<2>& x : shown.points)
+    for (const double side : {-r, r})
+      within.insert(within.end(), {x + Vector<2>{side, 0}, x + Vector<2>{0, side}});
+  within.push_back(to);
+  std::array<Tint, 1> tints{{{{}, visited}}};
+  if (answer.cell != Cell::none)
+    tints[0].cells = shown_walk(snapshot, locator.particle_at(from).value(), shown.end).cells();
+  Query_plot plot(snapshot, within, tints);
+  plot.rounded(shown.at(from), r, Layer::starts, thick_start);
+  plot.key(Legend_entry::patch, thick_start, "before the motion, as thick as it is");
+  plot.dashes(from, to, thin, Layer::lines, motion);
+  if (shown.is_edge()) plot.line(from, shown.points[2], usual, Layer::lines, motion);
+  if (answer.status == Motion_status::free || answer.status == Motion_status::contact) {
+    const bool stops = answer.contact.has_value();
+    plot.rounded(shown.swept(), r, Layer::patches, thick_way);
+    plot.key(Legend_entry::patch, thick_way, "swept");
+    plot.rounded(shown.at(shown.end), r, Layer::ends, stops ? thick_stop : thick_start);
+    if (shown.is_edge()) plot.line(shown.end, shown.points[2], usual, Layer::lines, stops ? contact : motion);
+    if (stops) plot.key(Legend_entry::patch, thick_stop, "where it stops");
+    plot.key(Legend_entry::patch, visited, "cells that its axis visits");
+  }
+  if (answer.contact) {
+    plot.contact(answer.contact->point, answer.contact->normal);
+    plot.key(Legend_entry::disc, contact,
+             answer.status == Motion_status::close ? "the nearest point of walls"
+                                                   : "the point of the wall, and the normal");
+  }
+  for (std::size_t i = 0; i < shown.points.size(); ++i) plot.point(shown.points[i], shown.name(i), motion);
+  plot.write(file, title_of(row, answer, shown.name(0)));
 }
 
 }  // namespace cellwalk::cli

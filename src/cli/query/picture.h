@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Pictures of single 2D motions, for `cellwalk query --picture`.
+// Pictures of single motions, for `cellwalk query --picture`.
 #ifndef CELLWALK_CLI_QUERY_PICTURE_H
 #define CELLWALK_CLI_QUERY_PICTURE_H
 
@@ -8,6 +8,8 @@
 #include <cellwalk/walk/locate.h>
 
 #include <array>
+
+#include "picture_motion.h"
 
 namespace cellwalk::cli {
 
@@ -23,6 +25,17 @@ void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Loc
 /// \pre as above
 void write_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
                    std::size_t row, const std::array<Point<2>, 3>& points, const Answer<2>& answer);
+
+/// Draws the motion of a point or an edge with a radius: all that is within its radius before the motion, on
+/// the way and where it ends, the cells that its axis visits, and the contact or the nearest point of walls.
+/// \pre the radius is not 0
+void write_thick_picture(io::Atomic_file& file, const Snapshot<2>& snapshot, const Locator<2>& locator,
+                         std::size_t row, const Pictured_motion<2>& shown, const Answer<2>& answer);
+
+/// Draws a motion in space, with or without a radius, and the walls near it, cut off at a box.
+/// \pre as above, for motions without a radius
+void write_picture(io::Atomic_file& file, const Snapshot<3>& snapshot, std::size_t row,
+                   const Pictured_motion<3>& shown, const Answer<3>& answer);
 
 }  // namespace cellwalk::cli
 

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "picture_motion.h"
 
 namespace cellwalk::cli {
 namespace {
@@ -19,6 +22,7 @@ constexpr double width_share = 0.0024;                                  // a lin
 constexpr double margin_share = 0.2;                                    // around the motion, of the extent
 constexpr double grid_lines = 0.6, wall_lines = 2.4, spot_lines = 2.6;  // in lines
 constexpr double dash = 6, arrow_lines = 26;                            // in lines
+constexpr int round_sides = 180;                                        // of what has a radius
 constexpr std::size_t most_numbers = 60;  // of cells: more would only clutter the picture
 
 Point<2> middle_of(const Cell_view<2>& view) {
@@ -108,7 +112,7 @@ void Query_plot::add_cell(Cell cell, const Colour& colour) {
   }
 }
 
-double Query_plot::height(Layer layer) const { return 1e-4 * unit_ * static_cast<double>(layer); }
+double Query_plot::height(Layer layer) const { return 0.25e-4 * unit_ * static_cast<double>(layer); }
 
 void Query_plot::line(const Point<2>& from, const Point<2>& to, double width, Layer layer,
                       const Colour& colour) {
@@ -132,6 +136,18 @@ void Query_plot::triangle(const Point<2>& a, const Point<2>& b, const Point<2>& 
   const double z = height(Layer::patches);
   const std::array<Point<3>, 3> corners{{{a[0], a[1], z}, {b[0], b[1], z}, {c[0], c[1], z}}};
   drawing::add_patch(panel_.drawing, corners, material(colour));
+}
+
+void Query_plot::rounded(const std::vector<Point<2>>& corners, double radius, Layer layer,
+                         const Colour& colour) {
+  std::vector<Point<3>> loop;
+  for (int k = 0; k < round_sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / round_sides;
+    const Vector<2> outwards{std::cos(angle), std::sin(angle)};
+    const Point<2> x = furthest<2>(corners, outwards) + radius * outwards;
+    loop.push_back({x[0], x[1], height(layer)});
+  }
+  drawing::add_patch(panel_.drawing, loop, material(colour));
 }
 
 void Query_plot::spot(const Point<2>& x, double size, const Colour& colour) {

@@ -20,7 +20,8 @@ constexpr drawing::Colour free_cell{0.99, 0.99, 0.99}, solid{0.76, 0.77, 0.79}, 
     grid{0.74, 0.76, 0.79}, visited{0.86, 0.92, 0.985}, star{1.0, 0.94, 0.76}, along_edge{0.86, 0.94, 0.84},
     motion{0.08, 0.16, 0.42}, crossed{0.08, 0.58, 0.32}, aimed{0.90, 0.45, 0.05},
     cone{0.95, 0.62, 0.12, 0.22}, chain{0.25, 0.45, 0.85}, passed_vertex{0.55, 0.20, 0.65},
-    contact{0.80, 0.10, 0.10};
+    contact{0.80, 0.10, 0.10}, thick_start{0.08, 0.16, 0.42, 0.30}, thick_way{0.08, 0.16, 0.42, 0.10},
+    thick_stop{0.80, 0.10, 0.10, 0.35}, wall_in_space{0.36, 0.37, 0.40, 0.13};
 }
 
 /// A set of cells and their colour.
@@ -29,8 +30,22 @@ struct Tint {
   drawing::Colour colour;
 };
 
-/// The layers from the lowest to the highest, which covers the others.
-enum class Layer { ground, cells, patches, grid, walls, facets, kept_facets, lines, edges, spots, arrows };
+/// The layers from the lowest to the highest, which covers the others, by their heights.
+enum class Layer {
+  ground = 0,
+  cells = 4,
+  patches = 8,
+  starts = 9,
+  ends = 10,
+  grid = 12,
+  walls = 16,
+  facets = 20,
+  kept_facets = 24,
+  lines = 28,
+  edges = 32,
+  spots = 36,
+  arrows = 40
+};
 
 /// Widths are in units of the picture: 1 is a clearly visible line.
 class Query_plot {
@@ -45,6 +60,9 @@ class Query_plot {
               const drawing::Colour& colour);
   void facet(Half_facet f, double width, const drawing::Colour& colour, Layer layer = Layer::facets);
   void triangle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const drawing::Colour& colour);
+  /// All that is within a radius of the hull of points.
+  void rounded(const std::vector<Point<2>>& corners, double radius, Layer layer,
+               const drawing::Colour& colour);
   void spot(const Point<2>& x, double size, const drawing::Colour& colour);
   /// A point with its name beside it.
   void point(const Point<2>& x, const std::string& name, const drawing::Colour& colour);

@@ -187,7 +187,7 @@ void add_query(CLI::App& app, Action& chosen) {
       ->type_name("N");
   command
       ->add_option("--picture", options->picture,
-                   "In the plane: draw the motion of a row, the cells it passes and what is in its way")
+                   "Draw the motion of a row and what is in its way; in the plane also the cells it passes")
       ->type_name("FILE.png");
   command->add_option("--row", options->row, "The row to draw or to record, from 0")->type_name("N");
   command

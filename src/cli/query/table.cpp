@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "answers.h"
@@ -112,44 +113,48 @@ std::size_t first_row(Ranks& ranks, std::size_t rows) {
   return from_message<std::vector<std::size_t>>(shared)[ranks.rank()];
 }
 
-/// The points of the row of which a repro file or a picture is requested, on the first rank; none if none is.
+/// The row of which a repro file or a picture is requested, on the first rank; none if none is.
 /// \throw Error(usage) if there is no such valid row, before anything is answered
 template <int D, std::size_t N>
-std::optional<std::array<Point<D>, N>> wanted_row(const Query_options& options, Ranks& ranks,
-                                                  std::size_t first,
-                                                  const std::vector<Query_row<D, N>>& rows) {
+std::optional<Query_row<D, N>> wanted_row(const Query_options& options, Ranks& ranks, std::size_t first,
+                                          const std::vector<Query_row<D, N>>& rows) {
   if (!options.row) return std::nullopt;
-  using Points = std::array<Point<D>, N>;
-  std::optional<Points> found;
-  if (*options.row >= first && *options.row - first < rows.size() && rows[*options.row - first].error.empty())
-    found = rows[*options.row - first].points;
+  using Motion = std::pair<std::array<Point<D>, N>, double>;  // and its radius
+  std::optional<Motion> found;
+  if (*options.row >= first && *options.row - first < rows.size()) {
+    const Query_row<D, N>& row = rows[*options.row - first];
+    if (row.error.empty()) found = {row.points, row.radius};
+  }
   ranks.gather(to_message(found), [&](const std::string& of_rank) {
-    if (!found) found = from_message<std::optional<Points>>(of_rank);
+    if (!found) found = from_message<std::optional<Motion>>(of_rank);
   });
   if (!ranks.is_first()) return std::nullopt;
   if (!found)
     throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
-  if (D == 3 && !options.picture.empty())
-    throw Error(Error_code::usage, "--picture draws 2D motions, and the environment is 3D");
-  return found;
+  return Query_row<D, N>{found->first, found->second, 0, {}};
 }
 
 /// Draws the requested row.
 template <int D, std::size_t N>
 void draw_row(const Query_options& options, Query_files& files, const Snapshot<D>& snapshot,
-              const Locator<D>& locator, const std::array<Point<D>, N>& points, const Answer<D>& answer) {
-  if constexpr (D == 2)
-    if (files.picture != nullptr)
-      write_picture(*files.picture, snapshot, locator, *options.row, points, answer);
+              const Locator<D>& locator, const Query_row<D, N>& motion, const Answer<D>& answer) {
+  if (files.picture == nullptr) return;
+  const Pictured_motion<D> shown(motion, answer);
+  if constexpr (D == 3)
+    write_picture(*files.picture, snapshot, *options.row, shown, answer);
+  else if (motion.radius == 0)
+    write_picture(*files.picture, snapshot, locator, *options.row, motion.points, answer);
+  else
+    write_thick_picture(*files.picture, snapshot, locator, *options.row, shown, answer);
 }
 
 /// Writes the repro file of the requested row.
 template <int D>
 void record_row(const Query_options& options, Query_files& files, const Environment<D>& environment,
-                const std::array<Point<D>, 2>& points, const Answer<D>& answer) {
+                const Query_row<D, 2>& motion, const Answer<D>& answer) {
   if (files.record == nullptr) return;
   const char* status = motion_status_names[static_cast<std::size_t>(answer.status)];
-  write_repro_of(*files.record, environment, points[0], points[1], options.method,
+  write_repro_of(*files.record, environment, motion, options.method,
                  fmt::format("row {} of a query: {}", *options.row, status));
 }
 
@@ -162,7 +167,6 @@ void refuse_with_radii(const Query_options& options) {
   if (options.sweep.touch == Touch::stop) refuse("--touch stop", "with one, no wall is touched");
   if (options.method.kernel != Kernel_choice::exact) refuse("--kernel", "distances are exact only");
   if (options.contact) refuse("--contact", "leave it out, the exact time is found");
-  if (options.row) refuse("--row", "--record and --picture show the walk of a point");
 }
 
 /// Answers the rows of this rank by answer(row, counts), and hands the answers to the first, which writes
@@ -197,7 +201,7 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
   }
   if (wanted) {
     Edge_counts not_counted;
-    const Answer<D> once_more = answer(Query_row<D, N>{*wanted, 0, 0, {}}, not_counted);
+    const Answer<D> once_more = answer(*wanted, not_counted);
     if constexpr (N == 2) record_row(options, *files, environment, *wanted, once_more);
     draw_row(options, *files, snapshot, locator, *wanted, once_more);
   }

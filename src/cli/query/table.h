@@ -51,7 +51,7 @@ struct Query_files {
 
 /// Answers the rows of this rank, and hands the answers to the first rank, which writes those of all.
 /// \param files on the first rank; null on others
-/// \throw Error(input) for a table that is none; Error(usage) for a row or a picture that there is not;
+/// \throw Error(input) for a table that is none; Error(usage) for a row that there is not;
 ///        Error(other) if a file cannot be written
 template <int D>
 void answer_table(const Query_options& options, Query_files* files, Ranks& ranks,

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <string_view>
+#include <vector>
+
 #include "io/files/text.h"
 #include "json_node.h"
 
@@ -14,7 +17,8 @@ namespace {
 
 using detail::Json_node;
 
-constexpr const char* record_format = "cellwalk motion 1";
+/// The latter has a radius.
+constexpr const char *thin_format = "cellwalk motion 1", *thick_format = "cellwalk motion 2";
 
 /// Facets with their vertices, in 2D the corners of a cell in order, and their wall marks.
 template <int D>
@@ -59,6 +63,11 @@ Repro<D> repro(const Json_node& root) {
   if (const auto note = root.find("note")) record.note = note->string();
   record.from = root.at("from").tuple<D>();
   record.to = root.at("to").tuple<D>();
+  if (root.at("format").string() == thick_format) {
+    const Json_node radius = root.at("radius");
+    record.radius = radius.number();
+    if (record.radius < 0) radius.fail(fmt::format("expected a number of at least 0, not {}", record.radius));
+  }
   for (const Json_node& point : root.at("points").elements()) record.soup.points.push_back(point.tuple<D>());
   if (record.soup.points.empty()) root.at("points").fail("expected points");
   for (const Json_node& cell : root.at("cells").elements()) add_cell(cell, record.soup);
@@ -72,9 +81,15 @@ Repro<D> repro(const Json_node& root) {
 
 template <int D>
 void write_repro(Atomic_file& file, const Repro<D>& record) {
-  nlohmann::ordered_json json{
-      {"format", record_format},     {"dimension", D},      {"note", record.note}, {"kernel", record.kernel},
-      {"strategy", record.strategy}, {"from", record.from}, {"to", record.to}};
+  const bool is_thick = record.radius != 0;
+  nlohmann::ordered_json json{{"format", is_thick ? thick_format : thin_format},
+                              {"dimension", D},
+                              {"note", record.note},
+                              {"kernel", record.kernel},
+                              {"strategy", record.strategy},
+                              {"from", record.from},
+                              {"to", record.to}};
+  if (is_thick) json["radius"] = record.radius;
   if (record.cell) json["cell"] = *record.cell;
   json["points"] = record.soup.points;
   json["cells"] = nlohmann::ordered_json::array();
@@ -97,10 +112,13 @@ template void write_repro(const std::filesystem::path&, const Repro<3>&);
 Any_repro parse_repro(const std::string& name, std::string_view text) {
   const auto document = detail::parse_json(name, text);
   const Json_node root(*document, name);
-  root.expect_keys(
-      {"format", "dimension", "note", "kernel", "strategy", "from", "to", "cell", "points", "cells"});
-  if (root.at("format").string() != record_format)
-    root.at("format").fail(fmt::format("expected \"{}\"", record_format));
+  const std::string format = root.at("format").string();
+  if (format != thin_format && format != thick_format)
+    root.at("format").fail(fmt::format("expected \"{}\" or \"{}\"", thin_format, thick_format));
+  std::vector<std::string_view> keys{"format", "dimension", "note",   "kernel", "strategy",
+                                     "from",   "to",        "points", "cells",  "cell"};
+  if (format == thick_format) keys.push_back("radius");
+  root.expect_keys(keys);
   if (root.at("dimension").integer_in(2, 3) == 2) return repro<2>(root);
   return repro<3>(root);
 }

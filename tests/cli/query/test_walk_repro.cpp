@@ -51,6 +51,27 @@ TEST_F(ReproWalk, FollowsAWalkRoundAVertex) {
   expect_holds(replay("0.5,1.5,1.5,0.5", "lazy"), {"goes on in cell 1, round a ridge or vertex"});
 }
 
+TEST_F(ReproWalk, SweepsMotionsWithARadius) {
+  // Blocked by a side and by a corner of the solid cell [1,2] x [1,2], free, and close from any cell of the
+  // start.
+  const auto replay_thick = [this](const std::string& motion) {
+    write("thick.csv", "ax,ay,bx,by,radius\n" + motion + "\n");
+    succeed({"query", "env.ovm", "thick.csv", "-o", "out.csv", "--record", "motion.json", "--row", "0"});
+    return succeed({"query", "--replay-failure", "motion.json"});
+  };
+  expect_holds(
+      replay_thick("0.5,1.5,2.5,1.5,0.25"),
+      {"note: row 0 of a query: contact", "radius: 0.25  = 0x1p-2",
+       "from cell 3: is blocked at time 0.125 by a wall of cell 3: facet, nearest at 1 1.5", "normal -1 0"});
+  expect_holds(replay_thick("0.5,0.5,1.5,0.75,0.25"), {"is free", "cells flooded"});
+  expect_holds(replay_thick("0.5,0.5,1.5,1.5,0.5"), {"is blocked at time 0.14", "vertex, nearest at 1 1"});
+  const std::string close = "starts at a distance of 0.25 from a wall of cell 1: vertex, nearest at 1 1";
+  expect_holds(replay_thick("1,0.75,1.5,0.75,0.5"), {"from cell 0: " + close});
+  std::string from_another = text("motion.json");
+  write("another.json", from_another.insert(from_another.find("\"points\""), "\"cell\": 1, "));
+  expect_holds(succeed({"query", "--replay-failure", "another.json"}), {"from cell 1: " + close});
+}
+
 TEST_F(ReproWalk, RefusesWhatItCannotReplay) {
   replay("0.5,0.5,2.5,0.5", "exact");
   const auto refuse = [this](int code, const std::string& part, const std::string& other,

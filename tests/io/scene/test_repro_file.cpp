@@ -24,11 +24,9 @@ Repro<2> sample() {
 class ReproFile : public testing::Test {
  protected:
   /// Reads the sample with a part of its text replaced, which must be there.
-  std::string refusal(const std::string& part, const std::string& other) {
+  std::string refusal(const std::string& part, const std::string& other, double radius = 0) {
     const auto path = folder_ / "motion.json";
-    write_repro(path, sample());
-    std::ifstream in(path);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::string text = written(radius);
     const std::size_t at = text.find(part);
     EXPECT_NE(at, std::string::npos) << part;
     std::ofstream(path) << text.replace(at, part.size(), other);
@@ -39,6 +37,15 @@ class ReproFile : public testing::Test {
       return error.what();
     }
     return {};
+  }
+
+  /// The text of the sample.
+  std::string written(double radius) {
+    Repro<2> record = sample();
+    record.radius = radius;
+    write_repro(folder_ / "motion.json", record);
+    std::ifstream in(folder_ / "motion.json");
+    return {std::istreambuf_iterator<char>(in), {}};
   }
 
   Folder folder_;
@@ -77,9 +84,31 @@ TEST_F(ReproFile, ReadsTetrahedra) {
   EXPECT_EQ(read.from, written.from);
 }
 
+TEST_F(ReproFile, HasTheFormatOfItsRadius) {
+  const std::string thin = written(0);
+  EXPECT_NE(thin.find("cellwalk motion 1"), std::string::npos);
+  EXPECT_EQ(thin.find("radius"), std::string::npos);
+  EXPECT_EQ(written(-0.0), thin);
+  for (const double radius : {0.1, 0x1p-1074, 1e308}) {
+    EXPECT_NE(written(radius).find("cellwalk motion 2"), std::string::npos);
+    EXPECT_EQ(std::get<Repro<2>>(read_repro(folder_ / "motion.json")).radius, radius);
+  }
+  EXPECT_EQ(std::get<Repro<2>>(parse_repro("thin", thin)).radius, 0);
+}
+
+TEST_F(ReproFile, RefusesWrongRadii) {
+  EXPECT_EQ(refusal("\"radius\": 0.5", "\"radius\": 0", 0.5), "");
+  for (const char* other : {"\"radius\": -0.5", "\"radius\": \"0.5\"", "\"radius\": null", "\"note2\": 1"})
+    EXPECT_NE(refusal("\"radius\": 0.5", other, 0.5).find(other[1] == 'r' ? "radius" : "note2"),
+              std::string::npos)
+        << other;
+  EXPECT_NE(refusal("motion 2", "motion 1", 0.5).find("radius: unknown key"), std::string::npos);
+  EXPECT_NE(refusal("motion 1", "motion 2").find("key \"radius\" is missing"), std::string::npos);
+}
+
 TEST_F(ReproFile, RefusesWhatItDoesNotUnderstand) {
   EXPECT_EQ(refusal("motion 1", "motion 1"), "");
-  EXPECT_NE(refusal("motion 1", "motion 2").find("format"), std::string::npos);
+  EXPECT_NE(refusal("motion 1", "motion 3").find("format"), std::string::npos);
   EXPECT_NE(refusal("\"note\"", "\"nota\"").find("nota"), std::string::npos);
   EXPECT_NE(refusal("\"to\"", "\"note2\"").find("note2"), std::string::npos);
   EXPECT_NE(refusal("\"dimension\": 2", "\"dimension\": 4").find("dimension"), std::string::npos);

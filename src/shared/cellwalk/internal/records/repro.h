@@ -20,6 +20,7 @@ struct Repro {
   std::optional<std::uint32_t> cell;
   std::string kernel = "exact", strategy = "exit_rule";  ///< as for `cellwalk query`
   std::string note;                                      ///< a remark, for the reader
+  double radius = 0;                                     ///< of the particle, finite, at least 0
 };
 
 using Any_repro = std::variant<Repro<2>, Repro<3>>;
