@@ -24,11 +24,12 @@ class Reader:
 
 def free_moves(data):
     """Of a trace with answers: its bytes, and how many moves are made to stay."""
-    if data[:8] not in (b"ECCDTRC2", b"ECCDTRC3"):
+    if data[:8] not in (b"ECCDTRC2", b"ECCDTRC3", b"ECCDTRC4"):
         raise ValueError("it is no trace, or one of an old format")
     read = Reader(data)
     read.at = 8
-    if data[:8] == b"ECCDTRC3":
+    has_radii = data[:8] == b"ECCDTRC4"
+    if has_radii or data[:8] == b"ECCDTRC3":
         _, has_grid = read.take("I", 2)
         if has_grid:
             *_, solid = read.take("I", 4)
@@ -37,9 +38,11 @@ def free_moves(data):
     answers_of_vertex = []  # of all bodies: one, and one for each neighbour
     for _ in range(bodies):
         vertices, edges, faces = read.take("I", 3)
+        radii = read.take("I", 1)[0] if has_radii else 0
         of_body = [1] * vertices
         for end in read.take("I", 2 * edges):
             of_body[end] += 1
+        read.take("d", radii)
         read.take("I", 3 * faces)
         answers_of_vertex += of_body
     head = data[:read.at]

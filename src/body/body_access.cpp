@@ -61,6 +61,11 @@ bool Body_access<D>::has_radii(const Body<D>& body) {
 }
 
 template <int D>
+std::vector<double> Body_access<D>::radii(const Body<D>& body) {
+  return body.state_->soup().radii;
+}
+
+template <int D>
 double Body_access<D>::radius_of_edge(std::uint32_t edge) const {
   return state_->thick.radius(edge);
 }

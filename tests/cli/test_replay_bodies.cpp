@@ -116,6 +116,22 @@ TEST_F(Replay_bodies, GivesTheAnswersOfACatheter) {
   EXPECT_GT(report["blocked"], 10);
 }
 
+TEST_F(Replay_bodies, GivesTheAnswersOfBodiesWithARadius) {
+  record("soft.json", "soft.bin",
+         {"--set", "bodies[0].edge_radius=0.05", "--set", "bodies[1].edge_radius=0.02"});
+  EXPECT_EQ(text("soft.bin").substr(0, 8), "ECCDTRC4");
+  succeed({"generate", "vessel", "-o", "vessel.ovm"});
+  record("catheter.json", "catheter.bin", {"--set", "catheter.radius=0.15"});
+  for (const char* sweep : {"three_segments", "triangle"}) {
+    const json of_soft = replay({"soft.bin", "--environment", "rooms.ovm", "--sweep", sweep});
+    EXPECT_EQ(of_soft["mismatches"], 0);
+    EXPECT_GT(of_soft["blocked"], 50);
+    const json of_catheter = replay({"catheter.bin", "--environment", "vessel.ovm", "--sweep", sweep});
+    EXPECT_EQ(of_catheter["mismatches"], 0);
+    EXPECT_GT(of_catheter["blocked"], 20);
+  }
+}
+
 TEST_F(Replay_bodies, RecordsTheSameBytesAgain) {
   record("soft.json", "a.bin", {"--threads", "1"});
   record("soft.json", "b.bin", {"--threads", "2"});

@@ -70,6 +70,9 @@ void check_trace(const Body_trace& trace) {
     };
     demand(std::ranges::adjacent_find(body.edges, std::greater_equal<>()) == body.edges.end(),
            "edges that are not in order");
+    demand(body.radii.size() <= 1 || body.radii.size() == body.edges.size(), "radii that are not of edges");
+    for (const double r : body.radii)
+      demand(r >= 0 && std::isfinite(r) && !(trace.touch_blocks && r > 0), "a radius that no edge may have");
     for (const auto& [u, v] : body.edges) demand(u < v && v < body.vertices, "an edge without its ends");
     for (const auto& [u, v, w] : body.faces)
       demand(is_edge(u, v) && is_edge(v, w) && is_edge(w, u), "a face without its edges");

@@ -33,6 +33,12 @@ Environment<3> grid_of(const Body_trace& trace, const Replay_options& options) {
   if (!options.environment.empty())
     throw Error(Error_code::usage,
                 fmt::format("--environment: {} holds its grid: leave the option out", options.trace));
+  if (options.sheared && trace.has_radii())
+    throw Error(
+        Error_code::usage,
+        fmt::format("--shear: {} holds bodies with a radius, and a shear changes distances: leave the "
+                    "option out",
+                    options.trace));
   const Progress progress("generating and certifying the grid");
   try {
     return trace_environment(*trace.grid, options.sheared ? sheared<3>() : Lattice_map<3>{});

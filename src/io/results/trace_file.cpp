@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -14,8 +15,9 @@
 namespace cellwalk::io {
 namespace {
 
-/// What a trace begins with; one that has a grid, or in which touches block, begins with the latter.
-constexpr std::string_view plain_magic = "ECCDTRC2", grid_magic = "ECCDTRC3";
+/// What a trace begins with: one of bodies with a radius with the last; others that have a grid, or in which
+/// touches block, with the one before.
+constexpr std::string_view plain_magic = "ECCDTRC2", grid_magic = "ECCDTRC3", thick_magic = "ECCDTRC4";
 
 /// A replay builds all cells of the grid, however short the file is. Beyond a million cells, which any file
 /// may have, the bytes set the limit: traces of large grids have much motion.
@@ -32,12 +34,14 @@ std::vector<T> take_values(Binary_reader& in, std::uint64_t count, const char* w
   return values;
 }
 
-Traced_body take_body(Binary_reader& in) {
+Traced_body take_body(Binary_reader& in, bool has_radii) {
   Traced_body body;
   body.vertices = in.take<std::uint32_t>("the vertices of a body");
   const auto edges = in.take<std::uint32_t>("the edges of a body");
   const auto faces = in.take<std::uint32_t>("the faces of a body");
+  const auto radii = has_radii ? in.take<std::uint32_t>("the number of radii of a body") : 0;
   body.edges = take_values<std::array<std::uint32_t, 2>>(in, edges, "the edges of a body");
+  body.radii = take_values<double>(in, radii, "the radii of a body");
   body.faces = take_values<std::array<std::uint32_t, 3>>(in, faces, "the faces of a body");
   return body;
 }
@@ -74,6 +78,21 @@ std::string flaw_of_faces(const Traced_body& body) {
   return {};
 }
 
+/// What is wrong with the radii of a body; empty if nothing.
+std::string flaw_of_radii(const Traced_body& body, bool touch_blocks) {
+  if (body.radii.size() > 1 && body.radii.size() != body.edges.size())
+    return fmt::format("{} radii of {} edges: there is one for each, one for all, or none", body.radii.size(),
+                       body.edges.size());
+  for (std::size_t e = 0; e < body.radii.size(); ++e) {
+    const double r = body.radii[e];
+    if (!(r >= 0 && std::isfinite(r)))
+      return fmt::format("radius {} is {}: a finite number of at least 0 is expected", e, r);
+    if (touch_blocks && r > 0)
+      return fmt::format("radius {} is {}, and touches block: what has a radius touches no wall", e, r);
+  }
+  return {};
+}
+
 /// True if the grid has cells, and all their indices fit into 32 bits.
 bool is_indexable(const Traced_grid& grid) {
   constexpr std::uint64_t most = std::uint64_t{1} << 32;
@@ -84,10 +103,11 @@ bool is_indexable(const Traced_grid& grid) {
 }
 
 /// What is wrong with a body; empty if nothing.
-std::string flaw_of(const Traced_body& body) {
+std::string flaw_of(const Traced_body& body, bool touch_blocks) {
   if (body.vertices == 0) return "it has no vertices";
-  const std::string what = flaw_of_edges(body);
-  return what.empty() ? flaw_of_faces(body) : what;
+  if (std::string what = flaw_of_edges(body); !what.empty()) return what;
+  if (std::string what = flaw_of_radii(body, touch_blocks); !what.empty()) return what;
+  return flaw_of_faces(body);
 }
 
 /// What is wrong with the values of a trace whose arrays have their lengths; empty if nothing.
@@ -95,7 +115,7 @@ std::string flaw_of(const Body_trace& trace) {
   if (trace.grid)
     if (std::string what = flaw_of_grid(*trace.grid); !what.empty()) return what;
   for (std::size_t b = 0; b < trace.bodies.size(); ++b)
-    if (const std::string what = flaw_of(trace.bodies[b]); !what.empty())
+    if (const std::string what = flaw_of(trace.bodies[b], trace.touch_blocks); !what.empty())
       return fmt::format("body {}: {}", b, what);
   const std::size_t vertices = trace.vertices();
   if (vertices == 0 && trace.steps > 0)
@@ -131,13 +151,13 @@ void take_environment(Binary_reader& in, Body_trace& trace) {
 }
 
 /// Bodies, steps and answers.
-void take_motion(Binary_reader& in, Body_trace& trace) {
+void take_motion(Binary_reader& in, Body_trace& trace, bool has_radii) {
   const auto bodies = in.take<std::uint32_t>("the number of bodies");
   trace.steps = in.take<std::uint32_t>("the number of steps");
   // Compared by division: the counts have 32 bits, and their products more than 64.
   std::uint64_t vertices = 0;
   for (std::uint32_t b = 0; b < bodies; ++b) {
-    trace.bodies.push_back(take_body(in));
+    trace.bodies.push_back(take_body(in, has_radii));
     vertices += trace.bodies.back().vertices;
     if (vertices > in.left() / sizeof(Point<3>))
       in.fail(
@@ -193,15 +213,16 @@ void check_grid_size(const std::string& name, const Traced_grid& grid, std::uint
 
 Body_trace parse_trace(const std::string& name, std::string_view bytes) {
   if (bytes.starts_with(hexahedra_magic)) return parse_hexahedra(name, bytes);
-  const bool has_environment = bytes.starts_with(grid_magic);
+  const bool has_radii = bytes.starts_with(thick_magic);
+  const bool has_environment = has_radii || bytes.starts_with(grid_magic);
   if (!has_environment && !bytes.starts_with(plain_magic))
     fail(name,
-         fmt::format("is no trace: it begins with none of {}, {} and {}; name a file of recorded motion",
-                     hexahedra_magic, plain_magic, grid_magic));
+         fmt::format("is no trace: it begins with none of {}, {}, {} and {}; name a file of recorded motion",
+                     hexahedra_magic, plain_magic, grid_magic, thick_magic));
   Binary_reader in(name, bytes.substr(plain_magic.size()), false);
   Body_trace trace;
   if (has_environment) take_environment(in, trace);
-  take_motion(in, trace);
+  take_motion(in, trace, has_radii);
   if (const std::string what = flaw_of(trace); !what.empty()) fail(name, what);
   if (trace.grid) check_grid_size(name, *trace.grid, bytes.size());
   return trace;
@@ -228,8 +249,8 @@ void write_trace(Atomic_file& file, const Body_trace& trace) {
     const auto number = static_cast<std::uint32_t>(count);
     file.write(bytes_of(&number, 1));
   };
-  const bool has_environment = trace.touch_blocks || trace.grid;
-  file.write(has_environment ? grid_magic : plain_magic);
+  const bool has_radii = trace.has_radii(), has_environment = has_radii || trace.touch_blocks || trace.grid;
+  file.write(has_radii ? thick_magic : has_environment ? grid_magic : plain_magic);
   if (has_environment) {
     write(trace.touch_blocks);
     write(trace.grid.has_value());
@@ -245,7 +266,9 @@ void write_trace(Atomic_file& file, const Body_trace& trace) {
     write(body.vertices);
     write(body.edges.size());
     write(body.faces.size());
+    if (has_radii) write(body.radii.size());
     file.write(bytes_of(body.edges));
+    file.write(bytes_of(body.radii));
     file.write(bytes_of(body.faces));
   }
   file.write(bytes_of(trace.before));

@@ -72,8 +72,9 @@ Body<3> Body_replay::registered(std::size_t body, std::size_t step) const {
   const auto positions = part(trace_->before_step(step), body);
   try {
     // Faces are left alone by the rule, and a wall may pierce one: a body without them moves alike.
-    return Body<3>(*snapshot_, *locator_,
-                   {{positions.begin(), positions.end()}, trace_->bodies[body].edges, {}});
+    return Body<3>(
+        *snapshot_, *locator_,
+        {{positions.begin(), positions.end()}, trace_->bodies[body].edges, {}, trace_->bodies[body].radii});
   } catch (const Error& error) {
     throw Error(error.code(),
                 fmt::format("body {} before step {}: {}", first_body_ + body, step, error.what()));

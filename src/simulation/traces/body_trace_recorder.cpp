@@ -2,7 +2,6 @@
 #include <cellwalk/internal/body/body_access.h>
 #include <cellwalk/internal/simulation/body_replay.h>
 #include <cellwalk/internal/simulation/body_trace_recorder.h>
-#include <cellwalk/kernel/error.h>
 
 #include <span>
 #include <utility>
@@ -23,12 +22,10 @@ Body_trace_recorder::Body_trace_recorder(const World<3>& world, Body_trace trace
 void Body_trace_recorder::take_bodies() {
   for (const Moving_body<3>& moving : world_.bodies()) {
     const Body<3>& body = moving.body();
-    if (detail::Body_access<3>::has_radii(body))
-      throw Error(Error_code::usage,
-                  "traces are of bodies without a radius: leave out --record, or the radii");
     trace_.bodies.push_back({static_cast<std::uint32_t>(body.vertex_count()),
                              {body.edges().begin(), body.edges().end()},
-                             {body.faces().begin(), body.faces().end()}});
+                             {body.faces().begin(), body.faces().end()},
+                             detail::Body_access<3>::radii(body)});
     degrees_.push_back(answerable_degrees(trace_.bodies.back(), degrees_.size()));
     before_.push_back(body);
   }

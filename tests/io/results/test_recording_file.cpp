@@ -25,7 +25,7 @@ Recording_scene sample_scene(bool walls_move = false, bool walls_change = false)
   scene.every = 2;
   scene.cells = 1000000;
   scene.particles = 1;
-  scene.bodies = {{false, 2, 1, 0}, {true, 1, 0, 0}};
+  scene.bodies = {{false, 2, 1, 0, 0.1}, {true, 1, 0, 0}};
   scene.upper = {2, 1, 4};
   scene.points = {{0, 0, 0}, {2, 0, 0}, {0, 1, 4}};
   scene.walls = {{0, 1, 2}, {2, 1}};
@@ -219,6 +219,8 @@ TEST(RecordingFile, ReadsWhatItWrote) {
   EXPECT_EQ(file.scene.edges, expected.edges);
   EXPECT_EQ(file.scene.bodies.size(), 2u);
   EXPECT_TRUE(file.scene.bodies[1].is_catheter);
+  EXPECT_EQ(file.scene.bodies[0].radius, 0.1);
+  EXPECT_EQ(file.scene.bodies[1].radius, 0);
   EXPECT_EQ(file.scene.upper, expected.upper);
 }
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace cellwalk::detail {
 
@@ -40,6 +41,9 @@ class Body_access {
   void leave_regions(Body_counts& counts);
   /// True if an edge or a vertex has a radius.
   static bool has_radii(const Body<D>& body);
+  /// In the form of Body_soup::radii.
+  /// Cost: a copy of the vertices, edges and faces.
+  static std::vector<double> radii(const Body<D>& body);
   double radius_of_edge(std::uint32_t edge) const;
   double radius_of_face(std::uint32_t face) const;
   /// 0 if it has edges.

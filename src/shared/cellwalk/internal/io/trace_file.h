@@ -16,7 +16,8 @@ namespace cellwalk::io {
 /// is allocated for counts before they are checked against the size of the file.
 /// \throw Error(input) `FILE: problem, and remedy`: not a trace, truncated or too long for its counts, a grid
 ///        without cells or too large, solid cells not ascending or outside the grid, bodies that break the
-///        rules of Body_soup, numbers that are not finite, answers with an unknown bit
+///        rules of Body_soup, bodies with a radius where touches block, numbers that are not finite, answers
+///        with an unknown bit
 Body_trace read_trace(const std::filesystem::path& path);
 
 /// Reads from bytes in memory.

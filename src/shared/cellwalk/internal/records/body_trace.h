@@ -7,6 +7,7 @@
 #include <cellwalk/kernel/point.h>
 #include <cellwalk/records/body_soup.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,8 @@
 
 namespace cellwalk {
 
-/// Bits of the answer to the motion of a vertex or an edge: set for hits.
+/// Bits of the answer to the motion of a vertex or an edge: set for hits or, where the edge has a radius, if
+/// a wall is nearer than that.
 constexpr std::uint8_t body_trace_blocked = 1;  ///< the segment of the vertex, or the edge at its end
 constexpr std::uint8_t body_trace_swept = 2;    ///< the triangle that the edge sweeps
 constexpr std::uint8_t body_trace_bits = body_trace_blocked | body_trace_swept;
@@ -26,6 +28,7 @@ struct Traced_body {
   std::uint32_t vertices = 0;
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< ascending, the lower vertex first
   std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<double> radii = {};  ///< in the form of Body_soup::radii
 };
 
 /// The number of edges of each vertex.
@@ -71,6 +74,9 @@ struct Body_trace {
     return count;
   }
   std::size_t moves() const { return steps * vertices(); }
+  bool has_radii() const {
+    return std::ranges::any_of(bodies, [](const Traced_body& body) { return !body.radii.empty(); });
+  }
 
   /// Positions of all vertices before a step.
   /// \pre step <= steps

@@ -30,8 +30,8 @@ std::vector<std::uint32_t> answerable_degrees(const Traced_body& body, std::size
 void append_body_answers(std::span<const std::uint32_t> degrees, std::span<const Rejected_move<3>> blocked,
                          Sweep sweep, std::vector<std::uint8_t>& answers);
 
-/// The bodies of a trace in motion, without their faces, which the rule leaves alone. Refers to the
-/// snapshot, the locator and the trace, which must outlive it.
+/// The bodies of a trace in motion, with their radii, without their faces, which the rule leaves alone.
+/// Refers to the snapshot, the locator and the trace, which must outlive it.
 class Body_replay {
  public:
   /// Registers the bodies where they stand before the first step.

@@ -17,8 +17,9 @@ namespace cellwalk {
 /// Cost: about 5 us a cell.
 Environment<3> trace_environment(const Traced_grid& grid, const Lattice_map<3>& map = {});
 
-/// A trace whose positions and targets are transformed by a map and rounded. Answers may differ if a motion
-/// passes a wall within the rounding, about 2^-50 of the size of the grid. The identity changes nothing.
+/// A trace whose positions and targets, but not its radii, are transformed by a map and rounded. Answers may
+/// differ if a motion passes a wall within the rounding, about 2^-50 of the size of the grid. The identity
+/// changes nothing.
 Body_trace mapped(Body_trace trace, const Lattice_map<3>& map);
 
 }  // namespace cellwalk
