@@ -2,7 +2,10 @@
 // What a radius costs: free edges of length 0.3 in the vessel of the demo, whose one end moves there and back
 // by 0.05. Without a radius as a sweep of the triangle; with one by a flood each time, and by a list of near
 // walls.
+#include <cellwalk/body/body.h>
 #include <cellwalk/environment/environment.h>
+#include <cellwalk/generators/body_shapes.h>
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/generators/vessel.h>
 #include <cellwalk/internal/edge/near_wall_list.h>
 #include <cellwalk/internal/kernel/random.h>
@@ -125,10 +128,30 @@ void contact(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(blocked.size()));
 }
 
+/// Steps of a hexahedron of side 0.3 that goes to and fro in the middle of an empty room; the time of a vertex.
+void body_in_the_open(benchmark::State& state) {
+  static const auto room = Environment<3>::build(hex_grid({.cells = {20, 20, 20}}));
+  Body_soup<3> soup = hexahedron_body(0.3);
+  for (Point<3>& x : soup.points) x = x + Vector<3>{10, 10, 10};
+  soup.radii = {radius_of(state)};
+  Body<3> body(room, soup);
+  std::vector<Point<3>> targets = soup.points;
+  Body_counts counts;
+  Step_report<3> report;
+  double side = length_of_moves;
+  for (auto _ : state) {
+    for (Point<3>& x : targets) x[0] += side;
+    side = -side;
+    body.step(targets, {}, report, counts);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(targets.size()));
+}
+
 BENCHMARK(without_radius)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(by_flood)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(by_list)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(list_made)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
 BENCHMARK(contact)->Arg(5)->Arg(15)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK(body_in_the_open)->Arg(0)->Arg(30);
 
 }  // namespace

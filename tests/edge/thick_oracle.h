@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Moves of edges and faces with a radius, by definition: all walls, no cells, no flood, and distances of hulls in
-// rational arithmetic.
+// Moves of edges and faces with a radius, by definition: all walls, no cells, no flood, and distances of
+// hulls in rational arithmetic.
 #ifndef CELLWALK_TESTS_EDGE_THICK_ORACLE_H
 #define CELLWALK_TESTS_EDGE_THICK_ORACLE_H
 

@@ -69,9 +69,9 @@ class Clear_region {
 
   /// Moves all bounds inwards, so that walls keep that distance from the hull of points in it.
   ///
-  /// Where the product of a point y of the box with a normal n, as rounded, is less than `inside`, y is before
-  /// the plane. If e bounds the rounding of such products, n.y < inside - e will do exactly. So it does for
-  /// all y within r of x where n.x as rounded is less than inside - 2e - r|n|.
+  /// Where the product of a point y of the box with a normal n, as rounded, is less than `inside`, y is
+  /// before the plane. If e bounds the rounding of such products, n.y < inside - e will do exactly. So it
+  /// does for all y within r of x where n.x as rounded is less than inside - 2e - r|n|.
   /// \param r finite, greater than 0
   /// \pre the box is finite
   void move_inwards(double r);

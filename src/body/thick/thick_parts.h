@@ -78,8 +78,8 @@ class Thick_parts {
 extern template class Thick_parts<2>;
 extern template class Thick_parts<3>;
 
-/// Tests that each edge and vertex with a radius, and each face if faces are swept, is at least at that distance
-/// from every wall: invariant I4.
+/// Tests that each edge and vertex with a radius, and each face if faces are swept, is at least at that
+/// distance from every wall: invariant I4.
 /// \throw Error(code) naming the first that is not, and its distance
 template <int D>
 void check_distances(const Body_state<D>& body, const Thick_parts<D>& thick, Error_code code);

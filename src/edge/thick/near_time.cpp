@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The least root of all rows. Most rows are excluded near an approximate time, where intervals prove that they
-// have no root.
+// The least root of all rows. Most rows are excluded near an approximate time, where intervals prove that
+// they have no root.
 #include "near_time.h"
 
 #include <cellwalk/internal/kernel/direction_at_distance.h>

@@ -349,6 +349,7 @@ TEST_F(InTheMembraneRoom, TheRuleOfThePaperMeasuresTheWayAndTheEnd) {
   EXPECT_EQ(blocked[0].swept_edges, 1u);
   EXPECT_EQ(blocked[0].contact->body, Body_feature::edge);
   EXPECT_EQ(body.positions()[0], (Point<3>{2, 1.25, 4}));
+  body.refresh(counts);
   EXPECT_NO_THROW(body.validate());
 
   options.reports_blocked = false;

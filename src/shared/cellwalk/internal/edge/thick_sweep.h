@@ -45,7 +45,8 @@ inline Swept_part part_of(Sweep sweep) {
 template <int D>
 using Swept_hull = boost::container::static_vector<Point<D>, 4>;
 
-/// Its corners: p, the target, and those that stand still; what is not in the part is repeated by another one.
+/// Its corners: p, the target, and those that stand still; what is not in the part is repeated by another
+/// one.
 /// \param part a hull: not `segments`
 template <int D>
 Swept_hull<D> swept_hull(const Thick_motion<D>& motion, Swept_part part) {
@@ -56,7 +57,8 @@ Swept_hull<D> swept_hull(const Thick_motion<D>& motion, Swept_part part) {
   return hull;
 }
 
-/// The first time at which the vertex, the edge or the face is at the distance r from a wall and comes nearer.
+/// The first time at which the vertex, the edge or the face is at the distance r from a wall and comes
+/// nearer.
 template <int D>
 struct Thick_result {
   std::optional<Contact<D>> contact;  ///< none: the motion is free
