@@ -128,7 +128,8 @@ void contact(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(blocked.size()));
 }
 
-/// Steps of a hexahedron of side 0.3 that goes to and fro in the middle of an empty room; the time of a vertex.
+/// Steps of a hexahedron of side 0.3 that goes to and fro in the middle of an empty room; the time of a
+/// vertex.
 void body_in_the_open(benchmark::State& state) {
   static const auto room = Environment<3>::build(hex_grid({.cells = {20, 20, 20}}));
   Body_soup<3> soup = hexahedron_body(0.3);

@@ -272,7 +272,7 @@ class Bodies(unittest.TestCase):
             with self.assertRaisesRegex(error, text):
                 fork.set_radii(radius)
         self.assertEqual(fork.radii.tolist(), [0.5, 0.5])
-        for words in ({"sweep": "faces"}, {"rule": "reject_at_target"}, {"touch": "stop"}, {"sweep": "three_segments"}, {"search": "exhaustive"}):
+        for words in ({"touch": "stop"}, {"search": "exhaustive"}):
             with self.assertRaises(cellwalk.UsageError):
                 fork.step(fork.positions, **words)
         with self.environment.editing() as edits:

@@ -13,6 +13,8 @@ namespace {
 
 /// The reach of a first list, in lengths of its first motion.
 constexpr double first_reach = 4;
+/// A list whose walls were all tested so often is worth a closer look at each of them.
+constexpr std::uint64_t tests_until_refined = 16;
 /// Reaches whose squares are exact enough, see reaches(); beyond them a list holds all walls.
 constexpr double least_reach = 0x1p-500, largest_reach = 0x1p500;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -37,6 +39,7 @@ template <int D>
 bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                                 std::size_t moving, Swept_part part) {
   if (epoch_ != snapshot.epoch() || !reaches(motion, moving)) make(snapshot, start, motion, moving);
+  if (is_coarse_ && tests_ > tests_until_refined * walls_.size()) refine(corner_count(motion));
   const auto keeps_distance = [&](Swept_part tested) {
     return is_apart_from_all(swept_hull(motion, tested), motion.radius);
   };
@@ -55,8 +58,7 @@ bool Near_wall_list<D>::is_apart_from_all(const Swept_hull<D>& hull, double radi
     for (std::size_t k = 0; k < D; ++k)
       is_far |= wall.box.low[k] - box.high[k] > radius || box.low[k] - wall.box.high[k] > radius;
     if (is_far) continue;
-    if (!is_apart<D>({hull.data(), hull.size()}, {corners_.data() + wall.first, corners_.data() + wall.last},
-                     radius, wall.near, uncounted))
+    if (!is_apart<D>({hull.data(), hull.size()}, corners_of(wall), radius, wall.near, uncounted))
       return false;
   }
   return true;
@@ -74,7 +76,7 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thic
   const double way = length(motion.target - motion.p);
   double size = 0;
   for (const Point<D>& x : hull) size = std::max(size, length(x - motion.p));
-  reach_ = reach_ == 0 ? first_reach * way : tests_ < facets_ ? 2 * reach_ : reach_ / 2;
+  reach_ = reach_ == 0 ? first_reach * way : tests_ < boxes_ ? 2 * reach_ : reach_ / 2;
   reach_ = std::min(reach_, std::max(first_reach * way, size + motion.radius));
   reach_ = std::max({reach_, (1 + 0x1p-40) * way, least_reach});
   if (!(reach_ < largest_reach)) reach_ = infinity;
@@ -82,10 +84,10 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thic
   epoch_ = snapshot.epoch();
   walls_.clear();
   corners_.clear();
-  facets_ = tests_ = 0;
-  const double near = std::nextafter(motion.radius + reach_, infinity);
-  Cell_list cells;
-  Near_walls<D>(snapshot, {hull.data(), hull.size()}, near).visit(start, cells, [&](Half_facet half) {
+  tests_ = 0;
+  near_ = std::nextafter(motion.radius + reach_, infinity);
+  const Near_walls<D> walls(snapshot, {hull.data(), hull.size()}, near_);
+  boxes_ = walls.visit_by_clusters(start, [&](Half_facet half) {
     const Cell_view<D> view = snapshot.view(snapshot.cell_of(half));
     Wall wall{static_cast<std::uint32_t>(corners_.size()), 0, {}, {}};
     for (const std::uint16_t v : view.loop(snapshot.facet_of(half))) {
@@ -93,16 +95,20 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thic
       wall.box.extend(corners_.back());
     }
     wall.last = static_cast<std::uint32_t>(corners_.size());
-    Distance_counts uncounted;
-    Feature_pair of_start;
-    if (std::isfinite(near) &&
-        is_apart<D>({hull.data(), hull.size()}, {corners_.data() + wall.first, corners_.data() + wall.last},
-                    near, of_start, uncounted))
-      corners_.resize(wall.first);
-    else
-      walls_.push_back(wall);
+    walls_.push_back(wall);
   });
-  for (std::size_t i = 0; i < cells.size(); ++i) facets_ += snapshot.facet_count(cells[i]);
+  is_coarse_ = std::isfinite(near_);
+}
+
+/// Drops the walls that were found by their boxes only.
+template <int D>
+void Near_wall_list<D>::refine(std::size_t corners) {
+  is_coarse_ = false;
+  Distance_counts uncounted;
+  std::erase_if(walls_, [&](const Wall& wall) {
+    Feature_pair of_start;
+    return is_apart<D>({listed_.data(), corners}, corners_of(wall), near_, of_start, uncounted);
+  });
 }
 
 template class Near_wall_list<2>;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cellwalk::detail {
@@ -30,7 +31,7 @@ class Near_wall_list {
   /// \pre where the motion starts, it is at least at the distance of its radius from every wall; the radius
   ///        is that of all motions before
   /// Cost: a comparison of boxes for each wall listed, is_apart() for those near; a flood of the cells nearer
-  /// than the radius and the reach where the list ends.
+  /// than the radius and the reach where the list ends, and a closer look at its walls if it lasts.
   bool is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, std::size_t moving,
                Swept_part part = Swept_part::all);
   /// Its corners are about to move without a test.
@@ -45,6 +46,10 @@ class Near_wall_list {
 
   bool reaches(const Thick_motion<D>& motion, std::size_t moving) const;
   bool is_apart_from_all(const Swept_hull<D>& hull, double radius);
+  std::span<const Point<D>> corners_of(const Wall& wall) const {
+    return {corners_.data() + wall.first, corners_.data() + wall.last};
+  }
+  void refine(std::size_t corners);
   void make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, std::size_t moving);
 
   std::vector<Wall> walls_;
@@ -53,8 +58,10 @@ class Near_wall_list {
   std::uint64_t epoch_ = 0;
   double square_of_reach_ = -1;  ///< rounded down; negative: the list holds nothing
   double reach_ = 0;
-  std::uint64_t facets_ = 0;  ///< of the cells of the flood: about what the list cost
-  std::uint64_t tests_ = 0;   ///< of walls since
+  double near_ = 0;          ///< the radius and the reach
+  bool is_coarse_ = false;   ///< some walls are farther than that
+  std::uint64_t boxes_ = 0;  ///< looked at by the flood: about what the list cost
+  std::uint64_t tests_ = 0;  ///< of walls since
 };
 
 extern template class Near_wall_list<2>;
