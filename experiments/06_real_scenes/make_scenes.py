@@ -209,6 +209,8 @@ def room(maker, frequency, around):
 def full(maker):
     sphere = maker.surface("sphere.off", lambda: geodesic_sphere(5, 0.25))
     maker.add("S1a_vessel", {"environment": VESSEL, "catheter": catheter(VESSEL_PATH, 0.2, 110), "steps": 240}, 80)
+    for name, radius in (("T1_thick_05", 0.05), ("T2_thick_15", 0.15), ("T3_thick_30", 0.3)):
+        maker.add(name, {"environment": VESSEL, "catheter": {**catheter(VESSEL_PATH, 0.2, 110), "radius": radius}, "steps": 240}, 80)
     maker.add("S1b_vessel_fine", {"environment": VESSEL, "catheter": catheter(VESSEL_PATH, 0.05, 440), "steps": 960}, 320)
     maker.add("R1_pressed", {"environment": LONG_VESSEL, "catheter": pressed([[0, 0, 0.2], [0, 0, 4]], 0.2, 200, 0.07), "steps": 800},
               560, PRESSED)
@@ -258,6 +260,7 @@ def aneurysm(maker, sphere):
 def quick(maker):
     sphere = maker.surface("sphere.off", lambda: geodesic_sphere(2, 0.3))
     maker.add("S1a_vessel", {"environment": SMALL_VESSEL, "catheter": catheter(SMALL_PATH, 0.2, 30), "steps": 60}, 10)
+    maker.add("T1_thick_05", {"environment": SMALL_VESSEL, "catheter": {**catheter(SMALL_PATH, 0.2, 30), "radius": 0.05}, "steps": 60}, 10)
     maker.add("S1b_vessel_fine", {"environment": SMALL_VESSEL, "catheter": catheter(SMALL_PATH, 0.05, 100), "steps": 160}, 60)
     maker.add("R1_pressed", {"environment": SMALL_VESSEL, "catheter": pressed(SMALL_PATH, 0.2, 60, 0.5, 90), "steps": 240}, 160, PRESSED)
     maker.add("S3_spheres", {"environment": SMALL_VESSEL, "bodies": [soft(sphere, count=6, seed=3, speed=1)], "restitution": 0.6,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "motion.h"
 
+#include <cellwalk/kernel/error.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -90,6 +92,18 @@ void drop_steps(Body_trace& trace, std::uint32_t count) {
   trace.steps -= count;
 }
 
+double common_radius(const Body_trace& trace) {
+  std::vector<double> all;
+  for (const Traced_body& body : trace.bodies) {
+    if (body.radii.empty()) all.push_back(0);
+    all.insert(all.end(), body.radii.begin(), body.radii.end());
+  }
+  const auto [least, most] = std::ranges::minmax(all);
+  if (least != most)
+    throw Error(Error_code::input, "edges of the trace have different radii: give all the same");
+  return least;
+}
+
 double median_step(const Body_trace& trace) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < trace.targets.size(); ++i) {
@@ -143,6 +157,7 @@ Motion make_motion(Body_trace trace, std::uint32_t first_step) {
   for (std::size_t s = 0; s < motion.trace.steps; ++s)
     note_blocked(motion, std::span(motion.trace.answers).subspan(s * answers, answers),
                  std::span(motion.blocked).subspan(s * vertices, vertices));
+  motion.radius = common_radius(motion.trace);
   motion.step_length = median_step(motion.trace);
   return motion;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A recorded motion (docs/formats.md, ECCDTRC2) as the methods of this experiment need it.
+// A recorded motion (docs/formats.md, traces) as the methods of this experiment need it.
 #ifndef CELLWALK_EXPERIMENTS_REAL_SCENES_MOTION_H
 #define CELLWALK_EXPERIMENTS_REAL_SCENES_MOTION_H
 
@@ -44,6 +44,7 @@ struct Motion {
   std::vector<std::size_t> first_vertex;              ///< of each body, and their number
   std::vector<std::shared_ptr<const Joints>> joints;  ///< of each body; equal bodies share them
   std::vector<std::uint8_t> blocked;                  ///< the exact answers: [step][vertex], 1 if it stays
+  double radius = 0;  ///< that all edges keep from walls; 0: they may touch them
   /// The median of the distances that vertices that move are asked to move in a step, by their largest
   /// coordinate.
   double step_length = 0;
@@ -60,6 +61,7 @@ void note_blocked(const Motion& motion, std::span<const std::uint8_t> answers,
                   std::span<std::uint8_t> blocked);
 
 /// \param first_step what comes before is left out
+/// \throw Error(input) if edges have different radii
 /// \pre first_step < trace.steps, and the trace holds answers
 Motion make_motion(Body_trace trace, std::uint32_t first_step);
 

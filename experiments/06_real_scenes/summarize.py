@@ -18,11 +18,12 @@ from tables import read_rows, table, unique  # noqa: E402
 
 OWN = {"cellwalk_three_segments": "Cellwalk, three segments", "cellwalk_complete": "Cellwalk, complete sweep"}
 COMPLETE = "cellwalk_complete"
-LIBRARIES = {"bullet": "Bullet", "fcl": "FCL", "embree": "Embree", "cgal": "CGAL, exact"}
+LIBRARIES = {"bullet": "Bullet", "fcl": "FCL", "embree": "Embree", "cgal": "CGAL, exact", "cgal_doubles": "CGAL, in doubles"}
 STEP_TIMES = ["step_us_median", "step_us_p99", "step_us_p999", "step_us_max", "step_max_over_median"]
 STEP_TITLES = ["median", "99 %", "99.9 %", "longest", "longest / median"]
 WORK = ["in_region", "edges_checked", "walks", "crossings", "region_cells", "fallbacks"]
 FINER = re.compile(r"(.*)_finer_([0-9.]+)")
+THICK = re.compile(r"T[0-9].*")
 
 
 def number(text):
@@ -47,7 +48,9 @@ def ratio(own, peer):
 
 
 def described(row):
-    """Its time, and of which method with which margin."""
+    """Its time, and of which method with which margin; nothing if there is none."""
+    if row is None:
+        return ""
     margin = f', {row["margin_steps"]}' if row["margin_steps"] != "0" else ""
     return f'{number(row["ns_per_vertex_move"])} ({row["method"].split("_", 1)[1].replace("_", " ")}{margin})'
 
@@ -120,7 +123,8 @@ def work_table(scenes):
 def tables(scenes):
     """All tables as Markdown."""
     timed = any(rows[0]["ns_per_vertex_move"] for rows in scenes.values())
-    coarse = {name: rows for name, rows in scenes.items() if not FINER.fullmatch(name)}
+    thick = {name: rows for name, rows in scenes.items() if THICK.fullmatch(name)}
+    coarse = {name: rows for name, rows in scenes.items() if not FINER.fullmatch(name) and name not in thick}
     finer = {name: rows for name, rows in scenes.items() if FINER.fullmatch(name)}
     text = "# Real scenes: results\n\n## Scenes\n\n" + scene_table(scenes)
     if timed:
@@ -128,8 +132,10 @@ def tables(scenes):
             text += "\n## A vertex move with its edges\n\n" + ratio_table(coarse)
         if finer:
             text += "\n## The same among finer cells\n\n" + ratio_table(finer, coarse)
-        if coarse:
-            text += "\n## Steps\n\n" + step_table(coarse)
+        if thick:
+            text += "\n## Catheters with a radius\n\n" + ratio_table(thick)
+        if coarse or thick:
+            text += "\n## Steps\n\n" + step_table({**coarse, **thick})
         if finer:
             text += "\n## Steps among finer cells\n\n" + step_table(finer)
     text += "\n## Cellwalk's work a move\n\n" + work_table(scenes)

@@ -3,10 +3,16 @@
 //
 //   cgal_body, cgal_group, cgal_star   boxes are kept for each body, group of 8 vertices, star of a vertex
 //   cgal_move                          a traversal of the tree by the box of each move
+//   cgal_doubles_body, ..              the same in doubles, where bodies have a radius: then all measure
+//                                      distances
 //   cgal_tree                          do_intersect of the tree for each segment, without a box: judges the
 //                                      recorded answers independently of the library, but takes touches for
 //                                      hits
+#include <cellwalk/internal/kernel/distance.h>
+#include <cellwalk/internal/kernel/predicates.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/peers/cgal_walls.h"
@@ -78,6 +84,54 @@ struct Cgal {
   cgal::Walls walls;
 };
 
+/// The distance of segments from triangles: by the library's exact predicate, which tries the features first
+/// that were nearest when the triangle was last tested, or in doubles. Planes exclude most triangles.
+struct Cgal_distances {
+  Cgal_distances(const Wall_mesh& mesh, double r, bool exact) : walls(mesh), radius(r), is_exact(exact) {}
+
+  struct Candidate {
+    Candidate(const cgal::Triangle_3& t, const Box& b) : box(b) {
+      for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = {t[k][0], t[k][1], t[k][2]};
+      normal = unit_normal(corners[0], corners[1], corners[2]);
+    }
+    std::array<Point<3>, 3> corners;
+    Vector<3> normal;
+    Float_box box;
+    mutable detail::Feature_pair nearest{};
+  };
+  using Place = Point<3>;
+
+  void query(const Box& box, std::vector<Candidate>& list) const { walls.query(box, list); }
+  const Point<3>& place(const Point<3>& p) const { return p; }
+  bool is_near(const Candidate& c, const Point<3>& a, const Point<3>& b) const {
+    const std::array segment{a, b};
+    if (is_exact) {
+      Distance_counts uncounted;
+      return !detail::is_apart<3>(segment, c.corners, radius, c.nearest, uncounted);
+    }
+    const double at_a = dot(c.normal, a - c.corners[0]), at_b = dot(c.normal, b - c.corners[0]);
+    if (std::min(at_a, at_b) > radius || std::max(at_a, at_b) < -radius) return false;
+    const detail::Nearest<3> nearest = detail::nearest_in_doubles<3>(segment, c.corners);
+    const Vector<3> between = nearest.on_b - nearest.on_a;
+    return dot(between, between) < radius * radius || (at_a * at_b < 0 && pierces(c, a, b));
+  }
+
+  cgal::Walls walls;
+  double radius;
+  bool is_exact;
+
+ private:
+  static bool pierces(const Candidate& c, const Point<3>& a, const Point<3>& b) {
+    bool left = false, right = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double volume = dot(cross(c.corners[k] - a, c.corners[(k + 1) % 3] - a), b - a);
+      left |= volume > 0;
+      right |= volume < 0;
+    }
+    return !(left && right);
+  }
+};
+
 class Tree_queries : public Placed_peer {
  public:
   Tree_queries(const Motion& motion, std::shared_ptr<Cgal> cgal)
@@ -111,6 +165,15 @@ class Tree_queries : public Placed_peer {
 
 void add_cgal_peers(const Scene_walls& walls, const Motion& motion, Peers& peers) {
   Build build;
+  if (motion.radius > 0) {
+    for (const bool is_exact : {true, false}) {
+      const auto distances = experiments::measured_build(build, "wall", [&] {
+        return std::make_shared<Cgal_distances>(*walls.mesh, motion.radius, is_exact);
+      });
+      add_kept_boxes(is_exact ? "cgal" : "cgal_doubles", is_exact, motion, distances, build, peers);
+    }
+    return;
+  }
   const auto cgal =
       experiments::measured_build(build, "wall", [&] { return std::make_shared<Cgal>(*walls.mesh); });
   add_kept_boxes("cgal", true, motion, cgal, build, peers);

@@ -9,6 +9,9 @@
 //   Place place(point)
 //   bool is_behind(candidate, place)            on the side of the triangle that is no free space
 //   bool is_on_line(candidate, place, place)    the line of two points passes the triangle
+// or, instead of the last two,
+//   double radius                               that is kept from walls
+//   bool is_near(candidate, place, place)       the segment of two points is nearer than that
 #ifndef CELLWALK_EXPERIMENTS_REAL_SCENES_PEERS_KEPT_BOXES_H
 #define CELLWALK_EXPERIMENTS_REAL_SCENES_PEERS_KEPT_BOXES_H
 
@@ -41,6 +44,15 @@ inline Box box_of(const Move& move) {
   box.add(move.target);
   for (const std::uint32_t q : move.neighbours) box.add(move.positions[q]);
   return box.box();
+}
+
+/// The box of all walls that may matter for what has a box.
+template <class Walls>
+Box reach_of(const Box& box, const Walls& walls) {
+  if constexpr (requires { walls.radius; })
+    return box.enlarged(walls.radius);
+  else
+    return box;
 }
 
 /// A part of a body with the walls near it.
@@ -77,7 +89,7 @@ class Move_test {
 
   /// \param near candidates for a part of the body; those near the move are tested
   bool is_blocked(const Move& move, std::span<const Candidate* const> near, const Walls& walls) {
-    const Float_box box(box_of(move));
+    const Float_box box(reach_of(box_of(move), walls));
     met_.clear();
     for (const Candidate* c : near)
       if (meet(box, c->box)) met_.push_back(c);
@@ -86,6 +98,21 @@ class Move_test {
   /// \param near all are tested
   bool is_blocked_by(const Move& move, std::span<const Candidate* const> near, const Walls& walls) {
     const Place from = walls.place(move.from()), to = walls.place(move.target);
+    if constexpr (requires { walls.radius; }) {
+      for (const Candidate* c : near) {
+        if (walls.is_near(*c, from, to)) return true;
+        for (const std::uint32_t q : move.neighbours)
+          if (walls.is_near(*c, to, walls.place(move.positions[q]))) return true;
+      }
+      return false;
+    } else {
+      return is_crossed(move, near, walls, from, to);
+    }
+  }
+
+ private:
+  bool is_crossed(const Move& move, std::span<const Candidate* const> near, const Walls& walls,
+                  const Place& from, const Place& to) const {
     for (const Candidate* c : near) {
       const bool is_behind = walls.is_behind(*c, to);
       const auto crosses = [&](const Place& end) {
@@ -98,7 +125,6 @@ class Move_test {
     return false;
   }
 
- private:
   std::vector<const Candidate*> met_;
 };
 
@@ -129,7 +155,7 @@ class Star_boxes : public Placed_peer {
   using Part = Kept_part<typename Walls::Candidate>;
 
   bool is_blocked(const Move& move, Part& part) {
-    const Box now = box_of(move);
+    const Box now = reach_of(box_of(move), *walls_);
     if (margin_ == 0) part.box = Box::nowhere();
     part.cover(now, margin_, *walls_);
     near_.clear();
@@ -194,7 +220,8 @@ class Group_boxes : public Placed_peer {
   bool find_near(std::size_t b, const Joints& joints, const Point<3>* x, std::span<const Point<3>> targets) {
     bool any = false;
     for (std::size_t part = 0; part < count_parts(joints); ++part) {
-      const Box now = whole_bodies_ ? whole_box(x, targets) : hull_box(joints.hulls[part], x, targets);
+      const Box now =
+          reach_of(whole_bodies_ ? whole_box(x, targets) : hull_box(joints.hulls[part], x, targets), *walls_);
       Kept_part<Candidate>& kept = parts_[first_part_[b] + part];
       kept.cover(now, margin_, *walls_);
       near_[part].clear();
