@@ -50,7 +50,7 @@ struct Answer {
 /// \throw Error(input) for a point that is not finite, and a radius that is not a finite number of at least
 ///        0; Error(usage) as Locator::locate(), and for a radius with Touch::stop
 /// Cost: that of locating the start and of the walk, for each side; with a radius, about 30 ns for each facet
-/// of the cells that are nearer, and 0.1 to 0.3 ms for a contact. Thread-safe, if each thread has its own
+/// of the cells that are nearer, and 30 to 100 us for a contact. Thread-safe, if each thread has its own
 /// counts.
 template <int D>
 Answer<D> answer_move(const Snapshot<D>& snapshot, const Locator<D>& locator, const Point<D>& from,

@@ -78,7 +78,7 @@ struct Thick_result {
 /// distance r is free. Contact::point is the nearest point of the wall, Contact::normal the direction from
 /// there to the vertex, edge or face; Contact::cell is the start. Faces may have no area.
 /// Cost: that of a flood through the cells nearer than r, about 30 ns a facet; is_apart() for each wall
-/// found; 0.1 to 0.3 ms where walls are in the way.
+/// found; 30 to 100 us where walls are in the way.
 template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts, Swept_part part = Swept_part::all);
