@@ -60,6 +60,19 @@ TEST_F(InTheGrid, AFacetClosesAtTheRadius) {  // case 51
   EXPECT_EQ(outcome.held_by, (std::vector<Resident>{{false, 0, Body_feature::edge, 0}}));
 }
 
+// All edges of the face are farther from the facet.
+TEST_F(InTheGrid, AFacetClosesBesideAFace) {
+  Body_soup<3> soup;
+  soup.points = {{3.5, 0.6, 0.6}, {3.5, 7.4, 0.6}, {3.5, 3, 7.4}};
+  soup.edges = {{0, 1}, {0, 2}, {1, 2}};
+  soup.faces = {{0, 1, 2}};
+  soup.radii = {0.52};
+  Body<3> body(room.snapshot(), Locator<3>(room.snapshot()), soup);
+  Reshaping<3> reshaping(room, {{&body}, {}});
+  const Half_facet f = between({3, 3, 3}, {5, 3, 3});
+  EXPECT_EQ(reshaping.close(f).held_by, (std::vector<Resident>{{false, 0, Body_feature::face, 0}}));
+}
+
 TEST_F(InTheGrid, ACellIsFilledAround) {  // case 52
   const auto inside = rod({3, 3, 3}, {3, 3, 3.25}, 0.125);
   Reshaping<3> reshaping(room, {{inside.get()}, {}});

@@ -308,11 +308,12 @@ TEST(ThickBodies, AFaceMeetsASpike) {
             "face 0 of the body, with vertices 0 at (4, 9, 2), 1 at (0, 0, 6) and 2 at (8, 0, 6), is at a "
             "distance of 0.2030692330267");
   // By the rule of the paper nobody looks at it.
-  options.rule = Step_rule::reject_at_target;
-  options.reports_blocked = true;
+  Body_options of_paper = options;
+  of_paper.rule = Step_rule::reject_at_target;
+  of_paper.reports_blocked = true;
   Step_report<3> report;
   without_faces = Body<3>(room, soup);
-  without_faces.step(std::array{target, inside[1], inside[2]}, options, report, counts);
+  without_faces.step(std::array{target, inside[1], inside[2]}, of_paper, report, counts);
   EXPECT_TRUE(report.blocked.empty());
   // The radius of a face is the least of its sides'.
   soup.radii = {1, 1, 0.125};
@@ -320,6 +321,13 @@ TEST(ThickBodies, AFaceMeetsASpike) {
   const auto later = thinner.move_vertex(0, target, options, counts);
   EXPECT_FALSE(later) << later->time;
   thinner.validate();
+  // A face with a side without a radius has none: it may touch the tip, and go no further.
+  soup.radii = {1, 1, 0};
+  Body<3> thin(room, soup);
+  const auto touched = thin.move_vertex(0, {4, 9, 0}, options, counts);
+  ASSERT_TRUE(touched);
+  EXPECT_EQ(touched->time, 0.75);
+  EXPECT_EQ(touched->body, Body_feature::face);
   EXPECT_THROW(thinner.set_radii(std::array{1.0}), Error);
 }
 
