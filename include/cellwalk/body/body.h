@@ -41,10 +41,10 @@ class Body {
   /// which all its edges can be passed; which one, where several will do, is arbitrary but fixed. So is the
   /// way of an edge that may pass walls on several sides: if one of its faces lies on another side of them,
   /// the body is refused, although another way would do. Faces in the plane are not looked at.
-  /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, or is
-  ///        nearer to one than its radius, or the face that is or that a wall pierces, and where;
-  ///        Error(usage) naming an edge or a face that no Body_soup has; Error(input) naming a vertex that is
-  ///        not finite, or a radius that is not a finite number of at least 0
+  /// \throw Error(outside) naming the vertex that is not in free space, the edge that crosses a wall, the
+  ///        face that a wall pierces, or what is nearer to a wall than its radius, and where; Error(usage)
+  ///        naming an edge or a face that no Body_soup has; Error(input) naming a vertex that is not finite,
+  ///        or a radius that is not a finite number of at least 0
   /// Cost: one point location per vertex, one walk per edge, some us per face near walls.
   Body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup);
   Body(const Snapshot<D>&& snapshot, const Locator<D>& locator, const Body_soup<D>& soup) = delete;
@@ -77,7 +77,7 @@ class Body {
   double radius(std::size_t edge) const;
   /// For each edge a lower bound of its distance to all walls, or `up_to` where it is farther from them: for
   /// solvers that place barriers or penalties (docs/radius.md). It is at least the radius of the edge, and
-  /// below the distance by rounding only: of differences of coordinates less than 2^-26, mostly some 2^-46.
+  /// below the distance by less than 2^-40 of the largest difference of coordinates.
   /// \param up_to finite, at least 0: walls farther away are not looked at
   /// \throw Error(usage) if something is stale, see refresh(), or if `up_to` is negative or not finite
   /// Cost: for each edge a flood through the cells nearer than that, about 30 ns a facet, and 0.3 to 0.7 us a
@@ -141,8 +141,8 @@ class Body {
   Cell cell_of(std::uint32_t vertex) const;
 
   /// Checks I1, I2, I4 and, if faces are swept, I3 by exact predicates: each vertex lies in its cell, each
-  /// edge has a valid chain from cell to cell, no wall is nearer to an edge than its radius, none pierces a
-  /// face or is nearer to it than its own.
+  /// edge has a valid chain from cell to cell, no wall pierces a face, or is nearer to an edge or a face
+  /// than its radius.
   /// \throw Error(usage) if something is stale, see refresh(); Error(other) naming the first vertex, edge or
   ///        face that violates them
   void validate() const;

@@ -138,17 +138,6 @@ template Vector<3> common_normal<3>(const Point<3>&, const Point<3>&, double, st
                                     std::span<const Point<3>>);
 
 template <int D>
-double distance_bound(std::span<const Point<D>> a, std::span<const Point<D>> b) {
-  const Filter<D> filter(a, b, 0);
-  if (!filter.is_in_range()) return 0;
-  const Relative_nearest<D> nearest = nearest_features<D>(a, b);
-  return std::max({0.0, filter.gap(nearest.features), filter.gap(nearest.on_b - nearest.on_a)});
-}
-
-template double distance_bound<2>(std::span<const Point<2>>, std::span<const Point<2>>);
-template double distance_bound<3>(std::span<const Point<3>>, std::span<const Point<3>>);
-
-template <int D>
 double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<D>> b) {
   Feature_pair near;
   Distance_counts counts;
@@ -159,6 +148,18 @@ double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<
 
 template double distance_rounded_down<2>(std::span<const Point<2>>, std::span<const Point<2>>);
 template double distance_rounded_down<3>(std::span<const Point<3>>, std::span<const Point<3>>);
+
+template <int D>
+double distance_bound(std::span<const Point<D>> a, std::span<const Point<D>> b) {
+  const Filter<D> filter(a, b, 0);
+  if (!filter.is_in_range()) return 0;
+  const Relative_nearest<D> nearest = nearest_features<D>(a, b);
+  const double bound = std::max({0.0, filter.gap(nearest.features), filter.gap(nearest.on_b - nearest.on_a)});
+  return filter.is_tight(bound, nearest.distance) ? bound : distance_rounded_down<D>(a, b);
+}
+
+template double distance_bound<2>(std::span<const Point<2>>, std::span<const Point<2>>);
+template double distance_bound<3>(std::span<const Point<3>>, std::span<const Point<3>>);
 
 template <int D>
 std::optional<Direction_at_distance<D>> direction_at_distance(std::span<const Point<D>> a,

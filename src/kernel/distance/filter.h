@@ -87,6 +87,9 @@ class Filter {
   /// \pre is_in_range(); the points are from nearest_in_doubles()
   bool are_near(double distance) const { return distance + 0x1p-46 * extent_ < r_; }
 
+  /// True if a lower bound of the distance is near that of two points: it is good to some roundings.
+  bool is_tight(double bound, double distance) const { return distance - bound < 0x1p-42 * extent_; }
+
  private:
   void extend(const Point<D>& x) {
     for (std::size_t k = 0; k < D; ++k) extent_ = std::max(extent_, std::abs(x[k] - b_[0][k]));

@@ -99,9 +99,10 @@ struct Nearest {
 template <int D>
 Nearest<D> nearest_in_doubles(std::span<const Point<D>> a, std::span<const Point<D>> b);
 
-/// A lower bound of the distance of two hulls, at least 0, in doubles: below it by some 2^-46 of the largest
-/// difference of coordinates, but where rounding leads to other features than the nearest.
-/// Cost: that of is_apart() near r.
+/// A lower bound of the distance of two hulls, at least 0: below it by less than 2^-40 of the largest
+/// difference of coordinates.
+/// Cost: that of is_apart() near r; some tests in ring numbers where rounding hides the direction, as between
+/// edges that are nearly parallel.
 template <int D>
 double distance_bound(std::span<const Point<D>> a, std::span<const Point<D>> b);
 
