@@ -10,8 +10,6 @@
 #include <bit>
 #include <cstdint>
 #include <initializer_list>
-#include <random>
-#include <set>
 #include <string>
 
 #include "io/io_fixture.h"
@@ -87,30 +85,6 @@ inline void write(const std::filesystem::path& path, const Body_trace& trace) {
   Atomic_file file(path);
   write_trace(file, trace);
   file.commit();
-}
-
-/// Whatever bytes change, the trace is read or refused in one line.
-inline void damage_at_random(const std::string& good) {
-  std::mt19937 random(7);
-  std::size_t read = 0, refused = 0;
-  std::set<std::string> reasons;
-  for (int i = 0; i < 5000; ++i) {
-    std::string bytes = good;
-    for (auto n = 1 + random() % 3; n > 0; --n)
-      bytes[8 + random() % (i % 2 == 0 ? before_at - 20 : good.size() - 8)] = static_cast<char>(random());
-    if (i % 5 == 0) bytes.resize(random() % bytes.size());
-    try {
-      parse_trace("t.bin", bytes);
-      ++read;
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), Error_code::input) << e.what();
-      reasons.insert(e.what());
-      ++refused;
-    }
-  }
-  EXPECT_GT(read, 500u);
-  EXPECT_GT(refused, 2000u);
-  EXPECT_GT(reasons.size(), 200u);
 }
 
 }  // namespace cellwalk::io
