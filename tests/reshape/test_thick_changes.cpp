@@ -58,6 +58,7 @@ TEST_F(InTheGrid, AFacetClosesAtTheRadius) {  // case 51
   EXPECT_FALSE(outcome.is_made);
   EXPECT_EQ(outcome.reason, "something is nearer to the facet than its radius");
   EXPECT_EQ(outcome.held_by, (std::vector<Resident>{{false, 0, Body_feature::edge, 0}}));
+  EXPECT_EQ(outcome.distance, 1);
 }
 
 // All edges of the face are farther from the facet.
@@ -76,7 +77,9 @@ TEST_F(InTheGrid, AFacetClosesBesideAFace) {
 TEST_F(InTheGrid, ACellIsFilledAround) {  // case 52
   const auto inside = rod({3, 3, 3}, {3, 3, 3.25}, 0.125);
   Reshaping<3> reshaping(room, {{inside.get()}, {}});
-  EXPECT_FALSE(reshaping.fill(cell_at({3, 3, 3})).is_made);
+  const Outcome outcome = reshaping.fill(cell_at({3, 3, 3}));
+  EXPECT_FALSE(outcome.is_made);
+  EXPECT_EQ(outcome.distance, 0);
   EXPECT_TRUE(reshaping.fill(cell_at({5, 3, 3})).is_made);
 }
 
@@ -86,6 +89,7 @@ TEST_F(InTheGrid, ACellFarFromItsFacetsIsFilled) {
   const Outcome outcome = reshaping.fill(cell_at({3, 3, 3}));
   EXPECT_EQ(outcome.reason, "something is nearer to the cell than its radius");
   EXPECT_EQ(outcome.held_by.size(), 1u);
+  EXPECT_EQ(outcome.distance, 1);
   EXPECT_TRUE(reshaping.fill(cell_at({1, 3, 3})).is_made);
 }
 

@@ -44,6 +44,9 @@ struct Outcome {
   bool is_made = false;           ///< also if nothing had to be changed
   std::string reason;             ///< why not, empty if made: one sentence without a full stop
   std::vector<Resident> held_by;  ///< every vertex, edge and face that forbids it, sorted
+  /// If they forbid it only by their radii: the least distance between one of them and a new wall, rounded
+  /// down; 0 inside of a cell that would be filled.
+  double distance = 0;
 };
 
 /// How the move of a vertex ended.

@@ -2,6 +2,7 @@
 // The vertices, edges and faces at new walls, and the sides that they are given together.
 #include "shrinkage.h"
 
+#include <cellwalk/internal/kernel/distance.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/walk/signs.h>
 
@@ -100,12 +101,18 @@ void Shrinkage<D>::find_thick_holders() {
   for (const Half_facet wall : walls_) {
     corners.clear();
     for (const std::uint32_t p : snapshot_.loop(wall)) corners.push_back(snapshot_.point(p));
-    groups_.add_nearer(corners, held_by_);
+    for (const Thick_member<D>* member : groups_.thick().nearer_to(corners))
+      hold(*member, distance_rounded_down<D>(member->hull(), corners));
   }
   if (aim_ == Aim::close) return;
   for (const Thick_member<D>* member : groups_.thick().near(box_))
-    if (in_closure(snapshot_, filled_.front(), member->points[0]))
-      held_by_.push_back(groups_.at(member->member, member->feature));
+    if (in_closure(snapshot_, filled_.front(), member->points[0])) hold(*member, 0);
+}
+
+template <int D>
+void Shrinkage<D>::hold(const Thick_member<D>& member, double distance) {
+  held_by_.push_back(groups_.at(member.member, member.feature));
+  distance_ = std::min(distance_, distance);
 }
 
 template <int D>

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,6 +40,8 @@ class Shrinkage {
   std::vector<Resident> holders();
   /// True if holders() found some that would only be nearer to new walls than their radius.
   bool is_too_near() const { return is_too_near_; }
+  /// The least distance of those from new walls, rounded down.
+  double distance() const { return distance_; }
   /// Makes the change, and registers the residents near. An error leaves all as it was.
   /// \pre holders() found none
   void make();
@@ -68,6 +71,7 @@ class Shrinkage {
   bool stand(std::uint32_t group, Group& of_group, std::uint32_t& failed);
   enum class Aim : std::uint8_t { close, fill, leave };
   void find_box();
+  void hold(const Thick_member<D>& member, double distance);
   void find_thick_holders();
 
   Wall_editor<D>& editor_;
@@ -86,6 +90,7 @@ class Shrinkage {
   std::vector<Group> free_;                                     ///< with their registration after the change
   std::vector<Resident> held_by_;
   bool is_too_near_ = false;
+  double distance_ = std::numeric_limits<double>::infinity();
 };
 
 extern template class Shrinkage<2>;

@@ -18,8 +18,10 @@ Outcome refused(const char* reason) { return {false, reason, {}}; }
 /// \param too_near why not, if only radii forbid it
 template <int D>
 Outcome shrunk(Shrinkage<D> change, const char* reason, const char* too_near) {
-  if (std::vector<Resident> holders = change.holders(); !holders.empty())
-    return {false, change.is_too_near() ? too_near : reason, std::move(holders)};
+  if (std::vector<Resident> holders = change.holders(); !holders.empty()) {
+    if (!change.is_too_near()) return {false, reason, std::move(holders)};
+    return {false, too_near, std::move(holders), change.distance()};
+  }
   change.make();
   return made();
 }
