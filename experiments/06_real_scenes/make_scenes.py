@@ -251,6 +251,8 @@ def aneurysm(maker, sphere):
     maker.add("S2_aneurysm", {"environment": cells, "catheter": rod, "steps": 140}, 50)
     maker.add("S3_aneurysm_spheres", {"environment": cells, "bodies": [soft(sphere, scale=2, count=50, seed=3, speed=2)],
                                       "restitution": 0.6, "time_step": 0.01, "steps": 180}, 60)
+    for name, radius in (("T4_aneurysm_05", 0.1), ("T5_aneurysm_15", 0.3), ("T6_aneurysm_30", 0.6)):
+        maker.add(name, {"environment": cells, "catheter": {**rod, "radius": radius}, "steps": 140}, 50)
     rod = pressed(ARTERY, 0.7, 150, 0.025, find_route=True)
     maker.add("R2_pressed_aneurysm", {"environment": cells, "catheter": rod, "steps": 500}, 300, PRESSED)
     for name in ("R2_pressed_aneurysm", "S2_aneurysm", "S3_aneurysm_spheres"):

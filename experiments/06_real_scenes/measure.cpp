@@ -49,12 +49,13 @@ Replayed replay(Peer& peer, const Motion& motion, std::vector<std::uint8_t>& blo
 Peers build(const Scene_walls& walls, const Motion& motion, const std::string& only) {
   Peers peers;
   add_cellwalk_peers(walls, motion, peers);
-  if (motion.radius == 0) {  // others measure no distances of segments from triangles
+#ifdef CELLWALK_WITH_FCL
+  add_fcl_peers(walls, motion, peers);
+#endif
+  if (motion.radius ==
+      0) {  // rays have no radius; Bullet's boxes and distances would be those of cgal_doubles
 #ifdef CELLWALK_WITH_BULLET
     add_bullet_peers(walls, motion, peers);
-#endif
-#ifdef CELLWALK_WITH_FCL
-    add_fcl_peers(walls, motion, peers);
 #endif
 #ifdef CELLWALK_WITH_EMBREE
     add_embree_peers(walls, motion, peers);

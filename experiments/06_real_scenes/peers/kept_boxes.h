@@ -88,7 +88,7 @@ class Move_test {
   using Place = typename Walls::Place;
 
   /// \param near candidates for a part of the body; those near the move are tested
-  bool is_blocked(const Move& move, std::span<const Candidate* const> near, const Walls& walls) {
+  bool is_blocked(const Move& move, std::span<const Candidate* const> near, Walls& walls) {
     const Float_box box(reach_of(box_of(move), walls));
     met_.clear();
     for (const Candidate* c : near)
@@ -96,7 +96,7 @@ class Move_test {
     return !met_.empty() && is_blocked_by(move, met_, walls);
   }
   /// \param near all are tested
-  bool is_blocked_by(const Move& move, std::span<const Candidate* const> near, const Walls& walls) {
+  bool is_blocked_by(const Move& move, std::span<const Candidate* const> near, Walls& walls) {
     const Place from = walls.place(move.from()), to = walls.place(move.target);
     if constexpr (requires { walls.radius; }) {
       for (const Candidate* c : near) {
