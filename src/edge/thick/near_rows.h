@@ -94,7 +94,7 @@ Near_rows rows_of(const Thick_motion<D>& motion, std::size_t wall_corners);
 template <class N>
 struct Near_equation {
   Polynomial<N> polynomial;
-  boost::container::small_vector<Polynomial<N>, 8> at_least_0, above_0;
+  boost::container::small_vector<Polynomial<N>, 8> at_least_0{}, above_0{};
 };
 
 template <int D, class N>
@@ -103,23 +103,27 @@ class Near_equations {
   Near_equations(const Thick_motion<D>& motion, std::span<const Point<D>> wall)
       : motion_(motion), wall_(wall), square_of_radius_(N(motion.radius) * N(motion.radius)) {}
 
-  Near_equation<N> of(const Near_row& row) const {
+  Near_equation<N> of(const Near_row& row) const { return equation_of(row, true); }
+  /// Without its conditions.
+  Polynomial<N> polynomial_of(const Near_row& row) const { return equation_of(row, false).polynomial; }
+
+ private:
+  Near_equation<N> equation_of(const Near_row& row, bool conditions) const {
     const Point<D>& c = wall_[row.of_wall.corners[0]];
     if (row.of_wall.size == 1) {
       if (row.of_motion.size == 1) return vertex_and_vertex(c);
-      if (row.of_motion.size == 2) return edge_and_vertex(still(row), c);
+      if (row.of_motion.size == 2) return edge_and_vertex(still(row), c, conditions);
     }
     if constexpr (D == 3) {
-      if (row.of_wall.size == 1) return face_and_vertex(c);
-      if (row.of_wall.size == 3) return vertex_and_facet();
+      if (row.of_wall.size == 1) return face_and_vertex(c, conditions);
+      if (row.of_wall.size == 3) return vertex_and_facet(conditions);
     }
     const Point<D>& end = wall_[row.of_wall.corners[1]];
     if constexpr (D == 3)
-      if (row.of_motion.size == 2) return edge_and_side(still(row), c, end);
-    return vertex_and_side(c, end);
+      if (row.of_motion.size == 2) return edge_and_side(still(row), c, end, conditions);
+    return vertex_and_side(c, end, conditions);
   }
 
- private:
   using Vector_of_time = Moving_vector<D, N>;
 
   /// p(s) - x.
@@ -134,57 +138,62 @@ class Near_equations {
 
   Near_equation<N> vertex_and_vertex(const Point<D>& c) const {
     const Vector_of_time u = from_p(c);
-    return {scalar_product<D>(u, u) - Polynomial<N>{N(0), N(0), square_of_radius_}, {}, {}};
+    return {scalar_product<D>(u, u) - Polynomial<N>{N(0), N(0), square_of_radius_}};
   }
 
   /// The foot of the vertex is in the edge, which has a length.
-  Near_equation<N> edge_and_vertex(const Point<D>& q, const Point<D>& c) const {
+  Near_equation<N> edge_and_vertex(const Point<D>& q, const Point<D>& c, bool conditions) const {
     const Vector_of_time d = from_p(q), g = between<D, N>(c, q);
     const Polynomial<N> dd = scalar_product<D>(d, d), gd = scalar_product<D>(g, d);
-    return {
-        scalar_product<D>(g, g).constant * dd - squared(gd) - square_of_radius_ * dd, {gd, dd - gd}, {dd}};
+    const Polynomial<N> p = scalar_product<D>(g, g).constant * dd - squared(gd) - square_of_radius_ * dd;
+    if (!conditions) return {p};
+    return {p, {gd, dd - gd}, {dd}};
   }
 
   /// The foot of the vertex is on the inner side of all edges of the face, seen along its normal.
-  Near_equation<N> face_and_vertex(const Point<D>& c) const {
+  Near_equation<N> face_and_vertex(const Point<D>& c, bool conditions) const {
     const Vector_of_time to_p = from_p(*motion_.q), ridge = between<D, N>(*motion_.third, *motion_.q);
     const Vector_of_time n = vector_product(ridge, to_p), g = between<D, N>(c, *motion_.q);
     const auto along_n = [&](const Vector_of_time& x, const Vector_of_time& y) {
       return scalar_product<D>(vector_product(x, y), n);
     };
     const Polynomial<N> nn = scalar_product<D>(n, n);
-    return {squared(scalar_product<D>(g, n)) - square_of_radius_ * nn,
+    const Polynomial<N> p = squared(scalar_product<D>(g, n)) - square_of_radius_ * nn;
+    if (!conditions) return {p};
+    return {p,
             {along_n(ridge, g), along_n(from_p(*motion_.third), between<D, N>(c, *motion_.third)),
              along_n(g, to_p)},
             {nn}};
   }
 
-  Near_equation<N> vertex_and_side(const Point<D>& c, const Point<D>& end) const {
+  Near_equation<N> vertex_and_side(const Point<D>& c, const Point<D>& end, bool conditions) const {
     const Vector_of_time e = between<D, N>(end, c), u = from_p(c);
     const Polynomial<N> ee = scalar_product<D>(e, e), ue = scalar_product<D>(u, e);
-    return {ee.constant * scalar_product<D>(u, u) - squared(ue) - square_of_radius_ * ee, {ue, ee - ue}, {}};
+    const Polynomial<N> p = ee.constant * scalar_product<D>(u, u) - squared(ue) - square_of_radius_ * ee;
+    if (!conditions) return {p};
+    return {p, {ue, ee - ue}};
   }
 
   /// The nearest points of both lines, by Cramer's rule, are in the edges, which are not parallel.
-  Near_equation<N> edge_and_side(const Point<D>& q, const Point<D>& c, const Point<D>& end) const {
+  Near_equation<N> edge_and_side(const Point<D>& q, const Point<D>& c, const Point<D>& end,
+                                 bool conditions) const {
     const Vector_of_time d = from_p(q), e = between<D, N>(end, c), g = between<D, N>(c, q);
     const Vector_of_time n = vector_product(d, e);
-    const Polynomial<N> nn = scalar_product<D>(n, n), of_edge = scalar_product<D>(vector_product(g, e), n),
+    const Polynomial<N> nn = scalar_product<D>(n, n);
+    const Polynomial<N> p = squared(scalar_product<D>(g, n)) - square_of_radius_ * nn;
+    if (!conditions) return {p};
+    const Polynomial<N> of_edge = scalar_product<D>(vector_product(g, e), n),
                         of_side = scalar_product<D>(vector_product(g, d), n);
-    return {squared(scalar_product<D>(g, n)) - square_of_radius_ * nn,
-            {of_edge, nn - of_edge, of_side, nn - of_side},
-            {nn}};
+    return {p, {of_edge, nn - of_edge, of_side, nn - of_side}, {nn}};
   }
 
   /// The foot of the vertex is on the inner side of all edges.
-  Near_equation<N> vertex_and_facet() const {
+  Near_equation<N> vertex_and_facet(bool conditions) const {
     const Vector_of_time n =
         vector_product(between<D, N>(wall_[1], wall_[0]), between<D, N>(wall_[2], wall_[0]));
-    Near_equation<N> result{
-        squared(scalar_product<D>(from_p(wall_[0]), n)) - square_of_radius_ * scalar_product<D>(n, n),
-        {},
-        {}};
-    for (std::size_t k = 0; k < wall_.size(); ++k) {
+    Near_equation<N> result{squared(scalar_product<D>(from_p(wall_[0]), n)) -
+                            square_of_radius_ * scalar_product<D>(n, n)};
+    for (std::size_t k = 0; conditions && k < wall_.size(); ++k) {
       const Point<D>&from = wall_[k], &to = wall_[k + 1 == wall_.size() ? 0 : k + 1];
       result.at_least_0.push_back(
           scalar_product<D>(vector_product(between<D, N>(to, from), from_p(from)), n));

@@ -73,23 +73,41 @@ double root_in_doubles(const Near_equation<double>& equation) {
 
 using Interval = CGAL::Interval_nt<false>;
 
-/// The rows that may have a root between two times.
+/// A row that may have its time between two others.
+struct Possible_row {
+  Near_row row;
+  bool holds;  ///< its conditions do in between
+};
+using Possible_rows = boost::container::small_vector<Possible_row, 4>;
+
+/// The values of a polynomial in between: around the middle, where it varies least.
+Interval values(const Polynomial<Interval>& p, double from, double to) {
+  const Interval middle((from + to) / 2), off = Interval(from, to) - middle;
+  const Interval at_middle = p.constant + middle * (p.linear + middle * p.square);
+  const Interval rate = p.linear + 2 * middle * p.square;
+  return at_middle + off * (rate + off * p.square);
+}
+
 /// \pre products of six coordinates are in the range of doubles
 template <int D>
-Near_rows rows_between(double from, double to, const Near_rows& rows, const Thick_motion<D>& motion,
-                       std::span<const Point<D>> wall) {
+Possible_rows rows_between(double from, double to, const Near_rows& rows, const Thick_motion<D>& motion,
+                           std::span<const Point<D>> wall) {
   const CGAL::Protect_FPU_rounding<true> upwards;
   const Near_equations<D, Interval> equations(motion, wall);
-  const Interval s(from, to);
-  Near_rows result;
+  Possible_rows result;
   for (const Near_row& row : rows) {
-    const Polynomial<Interval> p = equations.of(row).polynomial;
-    // Around the middle of the times, where the polynomial varies least.
-    const Interval middle((from + to) / 2), off = s - middle;
-    const Interval at_middle = p.constant + middle * (p.linear + middle * p.square);
-    const Interval rate = p.linear + 2 * middle * p.square;
-    const Interval value = at_middle + off * (rate + off * p.square);
-    if (!(value.inf() > 0 || value.sup() < 0)) result.push_back(row);
+    const Interval value = values(equations.polynomial_of(row), from, to);
+    if (value.inf() > 0 || value.sup() < 0) continue;
+    const Near_equation<Interval> equation = equations.of(row);
+    bool holds = true, is_possible = true;
+    const auto look_at = [&](const Polynomial<Interval>& condition) {
+      const Interval at = values(condition, from, to);
+      holds &= at.inf() > 0;
+      is_possible &= at.sup() >= 0;
+    };
+    for (const auto& condition : equation.at_least_0) look_at(condition);
+    for (const auto& condition : equation.above_0) look_at(condition);
+    if (is_possible) result.push_back({row, holds});
   }
   return result;
 }
@@ -112,13 +130,17 @@ Quadratic to_quadratic(const Polynomial<Ring>& p) { return {p.square, p.linear, 
 template <int D>
 class Near_time_search {
  public:
-  Near_time_search(const Thick_motion<D>& motion, std::span<const Point<D>> wall)
-      : motion_(motion), wall_(wall), rows_(rows_of(motion, wall.size())), equations_(motion, wall) {}
+  Near_time_search(const Thick_motion<D>& motion, std::span<const Point<D>> wall, double about)
+      : motion_(motion),
+        wall_(wall),
+        about_(about),
+        rows_(rows_of(motion, wall.size())),
+        equations_(motion, wall) {}
 
   Near_time run() {
     if (motion_.third && at_still_side()) return std::move(*first_);
     if (!take_near_approximate_time())
-      for (const Near_row& row : rows_) take(row);
+      for (const Near_row& row : rows_) take(row, 0, 1, false);
     if (!first_) refuse_uncertified();
     return std::move(*first_);
   }
@@ -128,15 +150,11 @@ class Near_time_search {
   /// and just after do not matter if another one has its time there.
   bool take_near_approximate_time() {
     constexpr double width = 0x1p-30;
-    if (!are_moderate(motion_, wall_)) return false;
-    const double time = approximate_near_time(motion_, wall_);
-    if (!(time <= 1)) return false;
-    const double from = std::max(time - width, 0.0), to = std::min(time + width, 1.0);
+    if (!are_moderate(motion_, wall_) || !(about_ <= 1)) return false;
+    const double from = std::max(about_ - width, 0.0), to = std::min(about_ + width, 1.0);
     if (from > 0 && !is_later(motion_, wall_, from)) return false;
-    for (const Near_row& row : rows_between(from, to, rows_, motion_, wall_)) take(row);
-    if (first_ && first_->root <= to) return true;
-    first_.reset();
-    return false;
+    for (const auto& [row, holds] : rows_between(from, to, rows_, motion_, wall_)) take(row, from, to, holds);
+    return first_.has_value();
   }
 
   /// If the side that stands still is at the distance r itself, the face is free until p enters the
@@ -159,28 +177,34 @@ class Near_time_search {
     return true;
   }
 
-  /// Keeps a root in [0,1] at which the conditions hold, if it is the first.
-  void take(const Near_row& row) {
-    const Near_equation<Ring> equation = equations_.of(row);
-    const Quadratic polynomial = to_quadratic(equation.polynomial);
+  /// Keeps a root between two times at which the conditions hold, if it is the first.
+  /// \param holds the conditions do, at all of them
+  void take(const Near_row& row, double from, double to, bool holds) {
+    const Quadratic polynomial = to_quadratic(equations_.polynomial_of(row));
     if (polynomial.is_zero()) return;
     for (const auto which : {Exact_root::Which::lower, Exact_root::Which::upper}) {
       const auto root = Exact_root::of(polynomial, which);
       if (!root) return;
-      if (*root < 0.0 || *root > 1.0) continue;
-      const auto is_negative = [&](const Polynomial<Ring>& c) { return root->sign_of(to_quadratic(c)) < 0; };
-      const auto is_positive = [&](const Polynomial<Ring>& c) { return root->sign_of(to_quadratic(c)) > 0; };
-      if (std::ranges::any_of(equation.at_least_0, is_negative) ||
-          !std::ranges::all_of(equation.above_0, is_positive))
-        continue;
+      if (*root < from || *root > to || !(holds || is_time_of(row, *root))) continue;
       const Near_time found{*root, row.of_motion, row.of_wall};
       if (!first_ || is_before(found, *first_)) first_ = found;
       return;  // the other root is later
     }
   }
 
+  /// Whether the conditions hold at a root.
+  bool is_time_of(const Near_row& row, const Exact_root& root) const {
+    const Near_equation<Ring> equation = equations_.of(row);
+    const auto sign = [&](const Polynomial<Ring>& condition) {
+      return root.sign_of(to_quadratic(condition));
+    };
+    return std::ranges::all_of(equation.at_least_0, [&](const auto& c) { return sign(c) >= 0; }) &&
+           std::ranges::all_of(equation.above_0, [&](const auto& c) { return sign(c) > 0; });
+  }
+
   const Thick_motion<D>& motion_;
   std::span<const Point<D>> wall_;
+  double about_;
   Near_rows rows_;
   Near_equations<D, Ring> equations_;
   std::optional<Near_time> first_;
@@ -203,8 +227,8 @@ double approximate_near_time(const Thick_motion<D>& motion, std::span<const Poin
 }
 
 template <int D>
-Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall) {
-  return Near_time_search<D>(motion, wall).run();
+Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall, double about) {
+  return Near_time_search<D>(motion, wall, about).run();
 }
 
 /// The end of what is swept is off by rounding, and the distance by no more.
@@ -232,7 +256,7 @@ template bool is_later<3>(const Thick_motion<3>&, std::span<const Point<3>>, dou
 template double approximate_near_time<2>(const Thick_motion<2>&, std::span<const Point<2>>);
 template double approximate_near_time<3>(const Thick_motion<3>&, std::span<const Point<3>>);
 
-template Near_time find_near_time<2>(const Thick_motion<2>&, std::span<const Point<2>>);
-template Near_time find_near_time<3>(const Thick_motion<3>&, std::span<const Point<3>>);
+template Near_time find_near_time<2>(const Thick_motion<2>&, std::span<const Point<2>>, double);
+template Near_time find_near_time<3>(const Thick_motion<3>&, std::span<const Point<3>>, double);
 
 }  // namespace cellwalk::detail

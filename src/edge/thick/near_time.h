@@ -26,12 +26,13 @@ bool is_before(const Near_time& x, const Near_time& y);
 /// \param motion of a vertex, an edge or a face
 /// \param wall a point, the two ends of a segment, or the corners of a wall in order, of which the first
 ///        three are not collinear
+/// \param about approximate_near_time(), or any other number: only the cost depends on it
 /// \pre where the motion starts, it is at least as far from the wall as its radius; the hull of the motion is
 ///        nearer
 /// Cost: some us of intervals, and ring numbers for the features that meet at about the same time; for all
 /// where rounding hides the time.
 template <int D>
-Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall);
+Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>> wall, double about);
 
 /// About when that is, in doubles; infinity if rounding hides it.
 template <int D>

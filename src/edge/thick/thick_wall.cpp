@@ -23,7 +23,7 @@ std::optional<Thick_meeting<D>> first_meeting(
   Thick_motion<D> motion{swept[0], swept[1], swept[2], r};
   if constexpr (D == 3) motion.third = swept[3];
   if (known && is_later<D>(motion, feature, known->rounded())) return {};
-  const Near_time near = find_near_time<D>(motion, feature);
+  const Near_time near = find_near_time<D>(motion, feature, approximate_near_time<D>(motion, feature));
   Thick_meeting<D> meeting{to_time(near.root), near.of_motion, near.of_wall};
   const Near_place<D> place = find_near_place<D>(motion, feature, near, meeting.time.rounded());
   meeting.on_wall = place.on_motion;
