@@ -213,7 +213,7 @@ template <int D>
 void Body_state<D>::refresh_vertex(std::uint32_t vertex, Body_counts& counts) {
   if (!region.is_vertex_stale(vertex)) return;
   region.pass_mark_on(vertex, topology);
-  thick.forget_vertex(vertex);
+  thick.forget_vertex(topology, vertex);
   Particle<D>& particle = particles[vertex];
   // On a facet, a vertex that is where it was keeps its cell: on which side of walls in that plane it slides
   // depends on it.

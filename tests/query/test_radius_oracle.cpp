@@ -11,8 +11,11 @@
 #include <array>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "edge/relisted.h"
 #include "edge/thick_motions.h"
@@ -27,7 +30,7 @@ namespace {
 struct Radius_seen {
   int motions = 0, particles = 0, free = 0, blocked = 0, close = 0, outside = 0;
   int starts_at_r = 0, still_ends_at_r = 0, touches = 0;  ///< exactly
-  int by_edge = 0, by_face = 0, at_once = 0, several = 0, twins = 0;
+  int by_edge = 0, by_face = 0, at_once = 0, several = 0, twins = 0, without_flood = 0;
   std::array<int, 3> kinds{};  ///< of features of walls
   int faults = 0;
   std::map<std::string, int> by_fault;
@@ -41,7 +44,8 @@ std::ostream& operator<<(std::ostream& out, const Radius_seen& seen) {
              << " still ends, " << seen.touches << " free sweeps; " << seen.by_edge << " by the edge, "
              << seen.by_face << " by the face, at a vertex " << seen.kinds[0] << ", edge " << seen.kinds[1]
              << ", facet " << seen.kinds[2] << "; at time 0 " << seen.at_once << "; several walls block "
-             << seen.several << "; twins " << seen.twins << "; faults " << seen.faults << '\n'
+             << seen.several << "; found without a flood " << seen.without_flood << "; twins " << seen.twins
+             << "; faults " << seen.faults << '\n'
              << seen.first;
 }
 
@@ -73,8 +77,34 @@ struct Listing {
     return answer;
   }
 
+  /// The contact of a motion that is blocked, by all walls of the environment instead of those of a flood.
+  std::optional<Contact<D>> contact_without_flood(Thick_motion<D> m, bool is_particle) const {
+    std::vector<Half_facet> walls;
+    for (std::size_t index = 0; index < snapshot.cell_slots(); ++index) {
+      const Cell cell = snapshot.cell(index);
+      for (std::size_t i = 0; !snapshot.is_solid(cell) && i < snapshot.facet_count(cell); ++i)
+        if (const auto half = Snapshot<D>::half_facet(cell, i); snapshot.is_impassable(half))
+          walls.push_back(half);
+    }
+    return detail::contact_without_flood<D>(snapshot, locator.particle_at(m.p)->cell,
+                                            in_library(m, is_particle), walls);
+  }
+  std::optional<Contact<D>> contact_by_flood(const Thick_motion<D>& m, bool is_particle) const {
+    Edge_counts counts;
+    return detail::sweep_thick<D>(snapshot, locator.particle_at(m.p)->cell, in_library(m, is_particle),
+                                  counts)
+        .contact;
+  }
+
   const Snapshot<D> snapshot;
   const Locator<D> locator;
+
+ private:
+  static detail::Thick_motion<D> in_library(const Thick_motion<D>& m, bool is_particle) {
+    detail::Thick_motion<D> motion{m.p, m.target, m.q, m.radius, m.third};
+    if (is_particle) motion.q.reset();
+    return motion;
+  }
 };
 
 template <int D>
@@ -136,6 +166,7 @@ class Radius_trial {
       seen_.by_face += answer.contact->body == Body_feature::face;
       ++seen_.kinds[static_cast<std::size_t>(answer.contact->kind)];
       seen_.at_once += answer.contact->time == 0;
+      try_without_flood(m, is_particle);
     }
     if (!with_twins) return;
     ++seen_.twins;
@@ -145,6 +176,19 @@ class Radius_trial {
     if (m.third) larger.third = factor * *m.third;
     const std::string of_scale = difference(m, answer, larger_.answer(larger, is_particle), factor);
     if (!of_scale.empty()) note(m, is_particle, "scaled: " + of_scale);
+  }
+
+  /// Without a flood, the contact is the same in all that it has, or left open.
+  void try_without_flood(const Thick_motion<D>& m, bool is_particle) {
+    const auto found = listing_.contact_without_flood(m, is_particle);
+    if (!found) return;
+    ++seen_.without_flood;
+    const Contact<D> by_flood = listing_.contact_by_flood(m, is_particle).value();
+    const auto all = [](const Contact<D>& c) {
+      return std::tie(c.time, c.point, c.normal, c.kind, c.corner, c.facet, c.cell, c.body);
+    };
+    if (found->exact_time() != by_flood.exact_time() || all(*found) != all(by_flood))
+      note(m, is_particle, "without a flood: another contact");
   }
 
   void count(const Thick_motion<D>& m, const Thick_truth<D>& truth) {
@@ -229,6 +273,7 @@ void try_worlds(std::size_t worlds_in_ci, bool of_faces = false) {
   EXPECT_GT(seen.kinds[2], 10 * percent);
   EXPECT_GT(seen.at_once, percent);
   EXPECT_GT(seen.several, 5 * percent);
+  EXPECT_GT(seen.without_flood, seen.blocked / 2);
 }
 
 TEST(RadiusOracle, Motions2) { try_worlds<2>(114); }

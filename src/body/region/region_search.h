@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "clear_region.h"
-#include "cluster_flood.h"
 #include "cut_plane.h"
+#include "met_walls.h"
 #include "wall_plane.h"
 
 namespace cellwalk::detail {
@@ -78,7 +78,7 @@ class Region_search {
     Frame_box<D> reach(snapshot_.frame(), box());
     const Frame_box<D> kept(snapshot_.frame(), kept_);
     const auto cut_at_once = [this](Half_facet wall) { return cut_off(wall); };
-    if (!flood_clusters(snapshot_, region_.anchor().cell, reach, kept, request_, effort_, walls, cut_at_once))
+    if (!find_met_walls(snapshot_, region_.anchor().cell, reach, kept, request_, effort_, walls, cut_at_once))
       return false;
     std::ranges::sort(walls, {}, &Met_wall<D>::gap);
     for (const Met_wall<D>& wall : walls) {

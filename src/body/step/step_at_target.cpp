@@ -180,7 +180,8 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   const Particle<D> from = body_.particles[vertex];
   Move_scratch<D>& scratch = body_.scratch;
   const std::uint64_t signs_before = signs();
-  if (!body_.thick.are_none() && !is_inside && is_way_close(vertex, target, tried)) return tried;
+  const bool is_thick_free = body_.thick.are_none() || (!is_inside && is_sweep_of_thick_free(vertex, target));
+  if (!is_thick_free && !is_inside && is_way_close(vertex, target, tried)) return tried;
   if (settled.to) {
     to = *settled.to;
     had_choice = false;
@@ -220,7 +221,7 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
     moved.is_stale = is_inside && !body_.region.is_outside(corners[i].other);
     if (moved.is_stale) continue;
     body_.refresh_edge(corners[i].edge, counts_);
-    if (!body_.thick.are_none()) test_end_of_thick(vertex, i, to, tried);
+    if (!is_thick_free) test_end_of_thick(vertex, i, to, tried);
     if (answer.edges >> i & 1) continue;
     const bool is_settled = settled.to && i == settled.free_edges;
     Relink_answer relinked = is_settled ? settled.next_edge : Relink_answer::open;
@@ -237,21 +238,27 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   return tried;
 }
 
+/// True if edges with a radius, or a vertex alone, keep their distance all the way: most do, and need no other
+/// test.
+template <int D>
+bool Target_step<D>::is_sweep_of_thick_free(std::uint32_t vertex, const Point<D>& target) {
+  for (const Corner& corner : body_.topology.corners_of(vertex)) body_.refresh_edge(corner.edge, counts_);
+  return body_.thick.is_free(body_, vertex, target, Sweep::triangle);
+}
+
 /// True if a wall is nearer to the way of a vertex than the radius of one of its edges, or its own.
+/// \pre not all is free, see is_sweep_of_thick_free()
 template <int D>
 bool Target_step<D>::is_way_close(std::uint32_t vertex, const Point<D>& target, Tried_move<D>& tried) {
   const auto corners = body_.topology.corners_of(vertex);
-  for (const Corner& corner : corners) body_.refresh_edge(corner.edge, counts_);
   const auto is_free = [&](const Corner& corner) {
     return body_.thick.is_edge_free(body_, vertex, corner, target, Swept_part::way);
   };
-  if (corners.empty() ? body_.thick.is_vertex_free(body_, vertex, target)
-                      : std::ranges::all_of(corners, is_free))
-    return false;
+  if (!corners.empty() && std::ranges::all_of(corners, is_free)) return false;
   const Thick_motion<D> way{
       body_.positions[vertex], target, {}, body_.thick.radius_at(body_.topology, vertex)};
-  const auto met = sweep_thick<D>(snapshot(), body_.particles[vertex].cell, way, counts_.edges).contact;
-  tried.keep_located(met);
+  tried.keep_located(
+      body_.thick.contact(body_, body_.particles[vertex].cell, vertex, way, Swept_part::all, counts_.edges));
   return tried.answer.is_vertex_blocked = true;
 }
 
@@ -272,8 +279,8 @@ void Target_step<D>::test_end_of_thick(std::uint32_t vertex, std::size_t number,
   // A particle as thick as the edge meets the wall as it goes along it.
   const Thick_motion<D> along{
       to.position, body_.positions[corner.other], {}, body_.thick.radius(corner.edge)};
-  const auto met = sweep_thick<D>(snapshot(), to.cell, along, counts_.edges).contact;
-  tried.keep_located(met);
+  tried.keep_located(body_.thick.contact(body_, to.cell, body_.topology.edges()[corner.edge][0], along,
+                                         Swept_part::all, counts_.edges));
 }
 
 /// True if the edge of a corner is free while its vertex goes its way: then its chain is known.

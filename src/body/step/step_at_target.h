@@ -58,6 +58,7 @@ class Target_step {
                              Sides_taken* choices, Particle<D>& to, bool& had_choice);
   bool meets_at_end(const Vertex_path<D>& path, std::size_t number, const Corner& corner, bool is_blocked,
                     Moved_chain<D>& moved, Tried_move<D>& tried);
+  bool is_sweep_of_thick_free(std::uint32_t vertex, const Point<D>& target);
   bool is_way_close(std::uint32_t vertex, const Point<D>& target, Tried_move<D>& tried);
   void test_end_of_thick(std::uint32_t vertex, std::size_t number, const Particle<D>& to,
                          Tried_move<D>& tried);

@@ -5,17 +5,22 @@
 
 #include <cellwalk/kernel/error.h>
 
+#include <boost/container/small_vector.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "body/body_state.h"
 #include "body/step/meets_before.h"
 
 namespace cellwalk::detail {
 namespace {
+
+/// The number of vertices of a group: one list of walls is made for all of them.
+constexpr std::size_t vertices_of_group = 8;
 
 template <class Point>
 std::string place(const Point& x) {
@@ -70,8 +75,50 @@ Thick_parts<D>::Thick_parts(std::span<const double> radii, const Body_topology& 
   if (radii.size() == 1) of_vertices_ = radii[0];
   radii_.assign(edges, radii[0]);
   if (radii.size() > 1) radii_.assign(radii.begin(), radii.end());
-  near_edges_.resize(edges);
-  near_vertices_.resize(of_vertices_ > 0 ? vertices : 0);
+  form_groups(topology, vertices);
+}
+
+template <int D>
+void Thick_parts<D>::form_groups(const Body_topology& topology, std::size_t vertices) {
+  group_of_.assign(vertices, no_group);
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    if (group_of_[v] == no_group && radius_at(topology, v) > 0) join_neighbours(topology, v);
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    if (topology.corners_of(v).empty() && of_vertices_ > 0) add_to_group(v, {&v, 1}, of_vertices_);
+  for (std::uint32_t e = 0; e < topology.edges().size(); ++e)
+    if (radius(e) > 0) add_to_group(topology.edges()[e][0], topology.edges()[e], radius(e));
+  for (std::uint32_t f = 0; f < topology.faces().size(); ++f)
+    if (const double r = radius_of_face(topology, f); r > 0)
+      add_to_group(topology.faces()[f][0], topology.faces()[f], r);
+  for (Group& group : groups_) {
+    std::ranges::sort(group.corners);
+    const auto same = std::ranges::unique(group.corners);
+    group.corners.erase(same.begin(), same.end());
+  }
+}
+
+/// A group of a vertex and of those near it that have none yet.
+template <int D>
+void Thick_parts<D>::join_neighbours(const Body_topology& topology, std::uint32_t first) {
+  const auto number = static_cast<std::uint32_t>(groups_.size());
+  groups_.emplace_back();
+  std::vector<std::uint32_t> joined{first};
+  group_of_[first] = number;
+  for (std::size_t next = 0; next < joined.size(); ++next)
+    for (const Corner& corner : topology.corners_of(joined[next])) {
+      if (joined.size() == vertices_of_group) return;
+      if (radius(corner.edge) == 0 || group_of_[corner.other] != no_group) continue;
+      group_of_[corner.other] = number;
+      joined.push_back(corner.other);
+    }
+}
+
+/// \param first the vertex to whose group an edge or a face belongs
+template <int D>
+void Thick_parts<D>::add_to_group(std::uint32_t first, std::span<const std::uint32_t> corners, double r) {
+  Group& group = groups_[group_of_[first]];
+  group.corners.insert(group.corners.end(), corners.begin(), corners.end());
+  group.radius = std::max(group.radius, r);
 }
 
 template <int D>
@@ -88,10 +135,21 @@ double Thick_parts<D>::largest() const {
 template <int D>
 void Thick_parts<D>::forget(const Body_topology& topology, std::uint32_t edge) {
   if (are_none()) return;
-  near_edges_[edge].forget();
-  if (near_faces_.empty()) return;
-  for (const Face_corner& at : topology.face_corners_of(topology.edges()[edge][0]))
-    near_faces_[at.face].forget();
+  const std::uint32_t first = topology.edges()[edge][0];
+  if (radius(edge) > 0) groups_[group_of_[first]].near_walls.forget();
+  for (const Face_corner& at : topology.face_corners_of(first))
+    if (radius_of_face(topology, at.face) > 0)
+      groups_[group_of_[topology.faces()[at.face][0]]].near_walls.forget();
+}
+
+template <int D>
+void Thick_parts<D>::forget_vertex(const Body_topology& topology, std::uint32_t vertex) {
+  if (of_vertices_ > 0 && topology.corners_of(vertex).empty()) groups_[group_of_[vertex]].near_walls.forget();
+}
+
+template <int D>
+void Thick_parts<D>::forget_faces() {
+  for (Group& group : groups_) group.near_walls.forget();
 }
 
 template <int D>
@@ -115,71 +173,99 @@ bool Thick_parts<D>::has_thin(const Body_topology& topology, std::uint32_t verte
 }
 
 template <int D>
-bool Thick_parts<D>::is_edge_free(const Body_state<D>& body, std::uint32_t vertex, const Corner& corner,
-                                  const Point<D>& target, Swept_part part) {
-  const double r = radius(corner.edge);
-  return r == 0 ||
-         near_edges_[corner.edge].is_free(*body.snapshot, body.particles[vertex].cell,
-                                          {body.positions[vertex], target, body.positions[corner.other], r},
-                                          corner.is_reversed ? 1 : 0, part);
+bool Thick_parts<D>::are_free(const Body_state<D>& body, std::uint32_t vertex, std::uint32_t group,
+                              std::span<const Thick_motion<D>> motions, Swept_part part) {
+  auto& [corners, largest_radius, near_walls] = groups_[group];
+  if (!near_walls.holds(*body.snapshot, motions)) {
+    Box<D> box;
+    for (const std::uint32_t v : corners) box.extend(body.positions[v]);
+    near_walls.make(*body.snapshot, body.particles[vertex].cell, box, largest_radius, motions);
+  }
+  return near_walls.are_free(*body.snapshot, motions, part);
 }
 
 template <int D>
-bool Thick_parts<D>::is_vertex_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target) {
-  return of_vertices_ == 0 ||
-         near_vertices_[vertex].is_free(*body.snapshot, body.particles[vertex].cell,
-                                        {body.positions[vertex], target, {}, of_vertices_}, 0);
+bool Thick_parts<D>::is_edge_free(const Body_state<D>& body, std::uint32_t vertex, const Corner& corner,
+                                  const Point<D>& target, Swept_part part) {
+  const double r = radius(corner.edge);
+  const Thick_motion<D> motion{body.positions[vertex], target, body.positions[corner.other], r};
+  return r == 0 ||
+         are_free(body, vertex, group_of_[body.topology.edges()[corner.edge][0]], {&motion, 1}, part);
 }
 
 template <int D>
 bool Thick_parts<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target,
                              Sweep sweep) {
-  const auto corners = body.topology.corners_of(vertex);
-  if (corners.empty()) return is_vertex_free(body, vertex, target);
-  const auto is_edge = [&](const Corner& corner) {
-    return is_edge_free(body, vertex, corner, target, part_of(sweep));
+  const Point<D>& p = body.positions[vertex];
+  // The parts at the vertex, group by group: in most bodies there are one or two.
+  boost::container::small_vector<std::pair<std::uint32_t, Thick_motion<D>>, 8> parts;
+  const auto add = [&](std::uint32_t first, const Thick_motion<D>& motion) {
+    if (motion.radius > 0) parts.emplace_back(group_of_[first], motion);
   };
-  if (!std::ranges::all_of(corners, is_edge)) return false;
+  const auto corners = body.topology.corners_of(vertex);
+  if (corners.empty()) add(vertex, {p, target, {}, of_vertices_});
+  for (const Corner& corner : corners)
+    add(body.topology.edges()[corner.edge][0],
+        {p, target, body.positions[corner.other], radius(corner.edge)});
   if constexpr (D == 3)
-    if (sweep == Sweep::faces) return are_faces_free(body, vertex, target);
+    if (sweep == Sweep::faces)
+      for (const Face_corner& at : body.topology.face_corners_of(vertex))
+        add(body.topology.faces()[at.face][0],
+            motion_of_face(body, at, target, radius_of_face(body.topology, at.face)));
+  boost::container::small_vector<Thick_motion<D>, 8> motions;
+  while (!parts.empty()) {
+    const std::uint32_t group = parts.back().first;
+    motions.clear();
+    for (const auto& [of_part, motion] : parts)
+      if (of_part == group) motions.push_back(motion);
+    if (!are_free(body, vertex, group, {motions.data(), motions.size()}, part_of(sweep))) return false;
+    const auto is_done = [group](const auto& part) { return part.first == group; };
+    parts.erase(std::remove_if(parts.begin(), parts.end(), is_done), parts.end());
+  }
   return true;
 }
 
+/// What a list finds does not depend on the list, so nothing of it is counted.
 template <int D>
-bool Thick_parts<D>::are_faces_free(const Body_state<D>& body, std::uint32_t vertex,
-                                    const Point<D>& target) requires(D == 3) {
-  near_faces_.resize(body.topology.faces().size());
-  return std::ranges::all_of(body.topology.face_corners_of(vertex), [&](const Face_corner& at) {
-    const double r = radius_of_face(body.topology, at.face);
-    return r == 0 || near_faces_[at.face].is_free(*body.snapshot, body.particles[vertex].cell,
-                                                  motion_of_face(body, at, target, r), at.place);
-  });
+std::optional<Contact<D>> Thick_parts<D>::contact(const Body_state<D>& body, Cell start,
+                                                  std::uint32_t vertex_of_group,
+                                                  const Thick_motion<D>& motion, Swept_part part,
+                                                  Edge_counts& counts) {
+  const Snapshot<D>& snapshot = *body.snapshot;
+  Group& group = groups_[group_of_[vertex_of_group]];
+  if (motion.radius <= group.radius && group.near_walls.holds(snapshot, {&motion, 1}))
+    if (auto met = contact_without_flood<D>(snapshot, start, motion,
+                                            group.near_walls.walls_near(snapshot, motion), part))
+      return met;
+  return sweep_thick<D>(snapshot, start, motion, counts, part).contact;
 }
 
 template <int D>
 std::optional<Contact<D>> Thick_parts<D>::first_contact(const Body_state<D>& body, std::uint32_t vertex,
                                                         const Point<D>& target, Sweep sweep,
-                                                        Edge_counts& counts) const {
+                                                        Edge_counts& counts) {
   const Point<D>& p = body.positions[vertex];
   const Cell start = body.particles[vertex].cell;
   std::optional<Contact<D>> first;
-  const auto look_at = [&](const Thick_motion<D>& motion, std::uint32_t part) {
+  const auto look_at = [&](const Thick_motion<D>& motion, std::uint32_t first_vertex, std::uint32_t part) {
     if (motion.radius == 0) return;
-    auto met = sweep_thick<D>(*body.snapshot, start, motion, counts, part_of(sweep)).contact;
+    const auto met = contact(body, start, first_vertex, motion, part_of(sweep), counts);
     if (!met || (first && !meets_before(*met, *first))) return;
-    if (motion.third) met->body = Body_feature::face;  // else its vertex or edge would have met it as well
     first = met;
+    if (motion.third) first->body = Body_feature::face;  // else its vertex or edge would have met it as well
     first->vertex = vertex;
     first->feature = met->body == Body_feature::vertex ? vertex : part;
   };
   const auto corners = body.topology.corners_of(vertex);
-  if (corners.empty()) look_at({p, target, {}, of_vertices_}, 0);
+  if (corners.empty()) look_at({p, target, {}, of_vertices_}, vertex, 0);
   for (const Corner& corner : corners)
-    look_at({p, target, body.positions[corner.other], radius(corner.edge)}, corner.edge);
+    look_at({p, target, body.positions[corner.other], radius(corner.edge)},
+            body.topology.edges()[corner.edge][0], corner.edge);
   if constexpr (D == 3)
     if (sweep == Sweep::faces)
       for (const Face_corner& at : body.topology.face_corners_of(vertex))
-        look_at(motion_of_face(body, at, target, radius_of_face(body.topology, at.face)), at.face);
+        look_at(motion_of_face(body, at, target, radius_of_face(body.topology, at.face)),
+                body.topology.faces()[at.face][0], at.face);
   return first;
 }
 

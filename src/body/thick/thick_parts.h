@@ -41,38 +41,52 @@ class Thick_parts {
   double radius_of_face(const Body_topology& topology, std::uint32_t face) const;
 
   /// Whether a vertex can move to a target, with all its edges that have a radius and, for Sweep::faces, its
-  /// faces.
+  /// faces; or alone, if it has no edges.
   /// \pre nothing is stale; where they are, they are at least at that distance from every wall
   bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, Sweep sweep);
   /// Their first contact; none if the vertex can move.
   std::optional<Contact<D>> first_contact(const Body_state<D>& body, std::uint32_t vertex,
-                                          const Point<D>& target, Sweep sweep, Edge_counts& counts) const;
+                                          const Point<D>& target, Sweep sweep, Edge_counts& counts);
   /// Whether an edge of a vertex, if it has a radius, can do a part of such a move.
   /// \pre as is_free()
   bool is_edge_free(const Body_state<D>& body, std::uint32_t vertex, const Corner& corner,
                     const Point<D>& target, Swept_part part);
-  /// Whether a vertex without edges, if it has a radius, can move.
-  bool is_vertex_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target);
+  /// The contact of a motion of a vertex, alone or with edges and faces, on its way or from its end, as
+  /// sweep_thick() finds it.
+  /// \param vertex_of_group one to whose group what moves belongs
+  /// \pre the motion starts free, in that cell
+  std::optional<Contact<D>> contact(const Body_state<D>& body, Cell start, std::uint32_t vertex_of_group,
+                                    const Thick_motion<D>& motion, Swept_part part, Edge_counts& counts);
   /// The largest radius of its edges, or that of a vertex without edges.
   double radius_at(const Body_topology& topology, std::uint32_t vertex) const;
   /// True if some edge or, for Sweep::faces, face of a vertex has no radius, or the vertex has neither.
   bool has_thin(const Body_topology& topology, std::uint32_t vertex, Sweep sweep) const;
-  /// Moves without a test make lists of walls void: those of an edge and of the faces at it, of a vertex
-  /// without edges, or of all faces.
+  /// Moves without a test make lists of walls void: of an edge and the faces at it, of a vertex without edges,
+  /// or of all faces.
   void forget(const Body_topology& topology, std::uint32_t edge);
-  void forget_vertex(std::uint32_t vertex) {
-    if (!near_vertices_.empty()) near_vertices_[vertex].forget();
-  }
-  void forget_faces() { near_faces_.clear(); }
+  void forget_vertex(const Body_topology& topology, std::uint32_t vertex);
+  void forget_faces();
 
  private:
-  bool are_faces_free(const Body_state<D>& body, std::uint32_t vertex,
-                      const Point<D>& target) requires(D == 3);
+  /// Vertices joined by edges with a radius, the edges and faces whose first vertex is one of them, and the
+  /// walls near all that.
+  struct Group {
+    std::vector<std::uint32_t> corners;
+    double radius = 0;  ///< the largest
+    Near_wall_list<D> near_walls;
+  };
+  static constexpr std::uint32_t no_group = 0xffffffff;
+
+  void form_groups(const Body_topology& topology, std::size_t vertices);
+  void join_neighbours(const Body_topology& topology, std::uint32_t first);
+  void add_to_group(std::uint32_t first, std::span<const std::uint32_t> corners, double r);
+  bool are_free(const Body_state<D>& body, std::uint32_t vertex, std::uint32_t group,
+                std::span<const Thick_motion<D>> motions, Swept_part part);
 
   std::vector<double> radii_;  ///< of edges; empty if all are 0
   double of_vertices_ = 0;
-  std::vector<Near_wall_list<D>> near_edges_, near_vertices_;
-  std::vector<Near_wall_list<D>> near_faces_;  ///< once they are swept
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> group_of_;  ///< of vertices; no_group if it has nothing with a radius
 };
 
 extern template class Thick_parts<2>;

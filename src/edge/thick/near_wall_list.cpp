@@ -1,114 +1,164 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The flood that fills a list, and the tests of a motion against it.
 #include <cellwalk/internal/edge/near_wall_list.h>
+#include <cellwalk/internal/environment/cluster_flood.h>
+
+#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "near_walls.h"
+#include <bit>
 
 namespace cellwalk::detail {
 namespace {
 
 /// The reach of a first list, in lengths of its first motion.
 constexpr double first_reach = 4;
-/// A list whose walls were all tested so often is worth a closer look at each of them.
-constexpr std::uint64_t tests_until_refined = 16;
-/// Reaches whose squares are exact enough, see reaches(); beyond them a list holds all walls.
-constexpr double least_reach = 0x1p-500, largest_reach = 0x1p500;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+/// What it costs to list the walls of a block, in tests of blocks.
+constexpr std::uint64_t cost_of_listing = 8;
+
+template <int D>
+Box<D> box_of(std::span<const Thick_motion<D>> motions) {
+  Box<D> box;
+  for (const Thick_motion<D>& motion : motions) {
+    box.extend(motion.p);
+    box.extend(motion.target);
+    for (const auto& corner : {motion.q, motion.third})
+      if (corner) box.extend(*corner);
+  }
+  return box;
+}
+
+/// The points whose hull has all that motions at one corner sweep.
+template <int D>
+class Points_of_motions {
+ public:
+  Points_of_motions(std::span<const Thick_motion<D>> motions, Swept_part part) {
+    points_.push_back(motions[0].target);
+    if (part != Swept_part::end) points_.push_back(motions[0].p);
+    for (const Thick_motion<D>& motion : motions) {
+      radius_ = std::max(radius_, motion.radius);
+      for (const auto& corner : {motion.q, motion.third})
+        if (corner && part != Swept_part::way) points_.push_back(*corner);
+    }
+  }
+  std::span<const Point<D>> points() const { return {points_.data(), points_.size()}; }
+  double radius() const { return radius_; }
+  /// Of all that is nearer to them than the largest radius.
+  Box<D> box() const {
+    Box<D> box;
+    for (const Point<D>& x : points_) box.extend(x);
+    return enlarged(box, radius_);
+  }
+
+ private:
+  boost::container::small_vector<Point<D>, 8> points_;
+  double radius_ = 0;
+};
+
+template <int D>
+double largest_side(const Box<D>& box) {
+  double side = 0;
+  for (std::size_t k = 0; k < D; ++k) side = std::max(side, box.high[k] - box.low[k]);
+  return side;
+}
 
 }  // namespace
 
-/// In doubles the square of a distance is off by less than 2^-50 of it, and where it underflows by less than
-/// that part of the least square of a reach.
 template <int D>
-bool Near_wall_list<D>::reaches(const Thick_motion<D>& motion, std::size_t moving) const {
-  const auto is_near = [&](const Point<D>& x, std::size_t corner) {
-    const Vector<D> way = x - listed_[corner];
-    return dot(way, way) <= square_of_reach_;
-  };
-  const std::size_t size = corner_count(motion);
-  return is_near(motion.p, moving) && is_near(motion.target, moving) &&
-         (!motion.q || is_near(*motion.q, (moving + 1) % size)) &&
-         (!motion.third || is_near(*motion.third, (moving + 2) % size));
+bool Near_wall_list<D>::holds(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions) const {
+  return epoch_ == snapshot.epoch() && box_.contains(box_of(motions));
 }
 
 template <int D>
-bool Near_wall_list<D>::is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
-                                std::size_t moving, Swept_part part) {
-  if (epoch_ != snapshot.epoch() || !reaches(motion, moving)) make(snapshot, start, motion, moving);
-  if (is_coarse_ && tests_ > tests_until_refined * walls_.size()) refine(corner_count(motion));
-  const auto keeps_distance = [&](Swept_part tested) {
-    return is_apart_from_all(swept_hull(motion, tested), motion.radius);
-  };
-  if (part == Swept_part::segments) return keeps_distance(Swept_part::way) && keeps_distance(Swept_part::end);
-  return keeps_distance(part);
+void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Box<D>& part, double radius,
+                             std::span<const Thick_motion<D>> motions) {
+  // A longer list is made less often: its reach is right where the tests of walls cost about what it cost.
+  // Beyond the size of the part, the flood would grow faster than what it saves.
+  const double way = length(motions[0].target - motions[0].p);
+  reach_ = reach_ == 0 ? first_reach * way : tests_ < cost_ ? 2 * reach_ : reach_ / 2;
+  reach_ = std::min(reach_, std::max(first_reach * way, largest_side(part) + radius));
+  epoch_ = snapshot.epoch();
+  box_ = part;
+  box_.extend(box_of(motions));
+  box_ = enlarged(box_, reach_);
+  boxes_.clear();
+  walls_.clear();
+  corners_.clear();
+  cost_ = tests_ = 0;
+  const Frame_box<D> reach(snapshot.frame(), enlarged(box_, radius));
+  flood_clusters(snapshot, start, reach, [&](const Cell_cluster<D>& cluster, std::size_t) {
+    cost_ += cluster.walls.size() + cluster.passages.size();
+    for (const Facet_boxes<D>& all : cluster.walls)
+      for_each_met(reach, all, [&](std::size_t lane) { add(all, lane); });
+    return true;
+  });
+  cost_ += cost_of_listing * boxes_.size();
 }
 
 template <int D>
-bool Near_wall_list<D>::is_apart_from_all(const Swept_hull<D>& hull, double radius) {
-  Box<D> box;
-  for (const Point<D>& x : hull) box.extend(x);
-  tests_ += walls_.size();
-  Distance_counts uncounted;
-  for (Wall& wall : walls_) {
-    bool is_far = false;
-    for (std::size_t k = 0; k < D; ++k)
-      is_far |= wall.box.low[k] - box.high[k] > radius || box.low[k] - wall.box.high[k] > radius;
-    if (is_far) continue;
-    if (!is_apart<D>({hull.data(), hull.size()}, corners_of(wall), radius, wall.near, uncounted))
-      return false;
+void Near_wall_list<D>::add(const Facet_boxes<D>& boxes, std::size_t lane) {
+  Facet_boxes<D>& block = next_block(boxes_, walls_.size());
+  const std::size_t free = walls_.size() % 4;
+  for (std::size_t k = 0; k < D; ++k) {
+    block.low[k][free] = boxes.low[k][lane];
+    block.high[k][free] = boxes.high[k][lane];
   }
+  block.facets[free] = boxes.facets[lane];
+  walls_.emplace_back();
+}
+
+template <int D>
+bool Near_wall_list<D>::are_free(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions,
+                                 Swept_part part) {
+  const Points_of_motions<D> all(motions, part);
+  const Frame_box<D> near(snapshot.frame(), all.box());
+  tests_ += boxes_.size();
+  for (std::size_t block = 0; block < boxes_.size(); ++block)
+    for (unsigned met = near.met(boxes_[block]); met != 0; met &= met - 1) {
+      Wall& wall = look_up(snapshot, 4 * block + static_cast<std::size_t>(std::countr_zero(met)));
+      if (wall.plane.parts(all.points(), all.radius())) continue;
+      for (const Thick_motion<D>& motion : motions)
+        if (!is_far(wall, motion, part)) return false;
+    }
   return true;
 }
 
 template <int D>
-void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
-                             std::size_t moving) {
-  boost::container::static_vector<Point<D>, 3> hull{motion.p};
-  for (const auto& corner : {motion.q, motion.third})
-    if (corner) hull.push_back(*corner);
-  for (std::size_t i = 0; i < hull.size(); ++i) listed_[(moving + i) % hull.size()] = hull[i];
-  // A longer list is made less often: its reach is right where the tests of walls cost about what it cost.
-  // Beyond the size of the edge, the flood would grow faster than what it saves.
-  const double way = length(motion.target - motion.p);
-  double size = 0;
-  for (const Point<D>& x : hull) size = std::max(size, length(x - motion.p));
-  reach_ = reach_ == 0 ? first_reach * way : tests_ < boxes_ ? 2 * reach_ : reach_ / 2;
-  reach_ = std::min(reach_, std::max(first_reach * way, size + motion.radius));
-  reach_ = std::max({reach_, (1 + 0x1p-40) * way, least_reach});
-  if (!(reach_ < largest_reach)) reach_ = infinity;
-  square_of_reach_ = reach_ * reach_ * (1 - 0x1p-48);
-  epoch_ = snapshot.epoch();
-  walls_.clear();
-  corners_.clear();
-  tests_ = 0;
-  near_ = std::nextafter(motion.radius + reach_, infinity);
-  const Near_walls<D> walls(snapshot, {hull.data(), hull.size()}, near_);
-  boxes_ = walls.visit_by_clusters(start, [&](Half_facet half) {
-    const Cell_view<D> view = snapshot.view(snapshot.cell_of(half));
-    Wall wall{static_cast<std::uint32_t>(corners_.size()), 0, {}, {}};
-    for (const std::uint16_t v : view.loop(snapshot.facet_of(half))) {
-      corners_.push_back(view.point(v));
-      wall.box.extend(corners_.back());
-    }
-    wall.last = static_cast<std::uint32_t>(corners_.size());
-    walls_.push_back(wall);
-  });
-  is_coarse_ = std::isfinite(near_);
+std::vector<Half_facet> Near_wall_list<D>::walls_near(const Snapshot<D>& snapshot,
+                                                      const Thick_motion<D>& motion) {
+  const Points_of_motions<D> all({&motion, 1}, Swept_part::all);
+  const Frame_box<D> near(snapshot.frame(), all.box());
+  std::vector<Half_facet> walls;
+  for (std::size_t block = 0; block < boxes_.size(); ++block)
+    for_each_met(near, boxes_[block], [&](std::size_t lane) {
+      if (!look_up(snapshot, 4 * block + lane).plane.parts(all.points(), all.radius()))
+        walls.push_back(Half_facet{boxes_[block].facets[lane]});
+    });
+  return walls;
 }
 
-/// Drops the walls that were found by their boxes only.
+/// Takes the corners of a wall.
 template <int D>
-void Near_wall_list<D>::refine(std::size_t corners) {
-  is_coarse_ = false;
+void Near_wall_list<D>::take_corners(const Snapshot<D>& snapshot, std::size_t i) {
+  Wall& wall = walls_[i];
+  const Half_facet half{boxes_[i / 4].facets[i % 4]};
+  const Cell_view<D> view = snapshot.view(snapshot.cell_of(half));
+  wall.first = static_cast<std::uint32_t>(corners_.size());
+  for (const std::uint16_t v : view.loop(snapshot.facet_of(half))) corners_.push_back(view.point(v));
+  wall.last = static_cast<std::uint32_t>(corners_.size());
+  wall.plane = Parting_plane<D>({corners_.data() + wall.first, corners_.data() + wall.last});
+}
+
+/// What is apart from all that a motion sweeps is so from its segments.
+template <int D>
+bool Near_wall_list<D>::is_far(Wall& wall, const Thick_motion<D>& motion, Swept_part part) {
+  const bool are_segments = part == Swept_part::segments;
+  const Swept_hull<D> hull = swept_hull(motion, are_segments ? Swept_part::all : part);
   Distance_counts uncounted;
-  std::erase_if(walls_, [&](const Wall& wall) {
-    Feature_pair of_start;
-    return is_apart<D>({listed_.data(), corners}, corners_of(wall), near_, of_start, uncounted);
-  });
+  if (is_apart<D>({hull.data(), hull.size()}, {corners_.data() + wall.first, corners_.data() + wall.last},
+                  motion.radius, wall.near, uncounted))
+    return true;
+  return are_segments && is_far(wall, motion, Swept_part::way) && is_far(wall, motion, Swept_part::end);
 }
 
 template class Near_wall_list<2>;

@@ -5,8 +5,6 @@
 #define CELLWALK_EDGE_THICK_NEAR_WALLS_H
 
 #include <cellwalk/environment/snapshot.h>
-#include <cellwalk/internal/environment/cell_cluster.h>
-#include <cellwalk/internal/environment/cell_clusters.h>
 #include <cellwalk/internal/environment/cell_list.h>
 #include <cellwalk/internal/kernel/box.h>
 
@@ -73,31 +71,6 @@ class Near_walls {
         }
       }
     }
-  }
-
-  /// The same by a flood of clusters of cells, which need not look at cells without walls: for distances of
-  /// several cells. It finds more walls, by their boxes alone.
-  /// Returns the number of boxes looked at.
-  template <class Use>
-  std::size_t visit_by_clusters(Cell start, Use use) const {
-    const Cell_clusters<D>& clusters = snapshot_.clusters();
-    const Frame_box<D> reach(snapshot_.frame(), box_);
-    boost::container::small_vector<std::uint32_t, 64> reached{clusters.cluster_of(snapshot_, start)};
-    std::size_t boxes = 0;
-    const auto visit_met = [&](const std::vector<Facet_boxes<D>>& all, auto use_met) {
-      boxes += 4 * all.size();
-      for (const Facet_boxes<D>& four : all)
-        for (unsigned met = reach.met(four); met != 0; met &= met - 1)
-          use_met(four.facets[static_cast<std::size_t>(std::countr_zero(met))]);
-    };
-    for (std::size_t next = 0; next < reached.size(); ++next) {
-      const Cell_cluster<D>& cluster = clusters.cluster(snapshot_, reached[next]);
-      visit_met(cluster.passages, [&](std::uint32_t behind) {
-        if (std::ranges::find(reached, behind) == reached.end()) reached.push_back(behind);
-      });
-      visit_met(cluster.walls, [&](std::uint32_t wall) { use(Half_facet{wall}); });
-    }
-    return boxes;
   }
 
  private:

@@ -3,9 +3,13 @@
 #include <cellwalk/internal/edge/thick_sweep.h>
 #include <cellwalk/internal/kernel/distance.h>
 #include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/kernel/error.h>
+#include <cellwalk/kernel/exact.h>
 
 #include <algorithm>
+#include <compare>
+#include <tuple>
 #include <vector>
 
 #include "near_normal.h"
@@ -96,10 +100,19 @@ class Thick_sweep {
         });
     counts.flooded_cells += cells.size();
     if (close_) return {close_, true};
-    // What is met first excludes most others.
-    std::ranges::sort(blocking_, {}, &Blocking_wall::about_when);
-    for (const Blocking_wall& blocking : blocking_) keep_first(blocking.wall, blocking.order);
+    find_first();
     return {first_, false};
+  }
+
+  /// The first contact with these walls, if a flood finds the same.
+  std::optional<Contact<D>> run_on(std::span<const Half_facet> walls) {
+    for (const Half_facet wall : walls) {
+      const Points<D> corners = corners_of(snapshot_, wall);
+      if (is_any_near(corners)) keep_blocking(wall, corners);
+    }
+    find_first();
+    if (first_ && first_->kind != Contact_kind::facet && !are_linked(tied_)) return {};
+    return first_;
   }
 
  private:
@@ -115,7 +128,7 @@ class Thick_sweep {
     if (is_far(swept_hull(motion_, Swept_part::all), corners)) return;
     if (!is_far(before_, corners))
       keep_nearest(wall, corners);
-    else if (!close_ && is_part_near(corners))
+    else if (!close_ && is_any_near(corners))
       keep_blocking(wall, corners);
   }
 
@@ -129,8 +142,10 @@ class Thick_sweep {
     return is_apart<D>({hull.data(), hull.size()}, in<D>(corners), motion_.radius, near, distance_counts_);
   }
 
-  bool is_part_near(const Points<D>& corners) {
-    return part_ == Swept_part::all || !is_far(swept_hull(motion_, Swept_part::way), corners) ||
+  /// True if a wall is near something that has to keep the distance.
+  bool is_any_near(const Points<D>& corners) {
+    if (part_ != Swept_part::segments) return !is_far(swept_hull(motion_, part_), corners);
+    return !is_far(swept_hull(motion_, Swept_part::way), corners) ||
            !is_far(swept_hull(motion_, Swept_part::end), corners);
   }
 
@@ -181,9 +196,18 @@ class Thick_sweep {
     return static_cast<Body_feature>(of_motion.size - 1);
   }
 
-  void keep_first(Half_facet wall, const Canonical_order<D>& order) {
+  void find_first() {
+    // What is met first excludes most others.
+    std::ranges::sort(blocking_, {}, &Blocking_wall::about_when);
+    for (const Blocking_wall& blocking : blocking_) keep_first(blocking);
+  }
+
+  void keep_first(const Blocking_wall& blocking) {
+    const auto& [wall, order, about_when] = blocking;
     if (first_ && is_later<D>(motion_, order.corners(), first_->time)) return;
-    const Near_time near = find_near_time<D>(motion_, order.corners());
+    const Near_time near = find_near_time<D>(motion_, order.corners(), about_when);
+    // The interior of a wall is met from the side where the vertex has been all the time.
+    if (near.of_wall.size == D && !has_inside(wall, motion_.p)) return;
     Contact<D> contact;
     contact.set_time(to_time(near.root));
     if (first_ && first_->time < contact.time) return;
@@ -193,7 +217,59 @@ class Thick_sweep {
     contact.body = body_feature(near.of_motion);
     contact.cell = start_;
     set_feature(contact, wall, order, near.of_wall);
-    if (!first_ || is_before(contact, *first_)) first_ = contact;
+    const auto order_of_first = first_ ? compare(contact, *first_) : std::strong_ordering::less;
+    if (order_of_first > 0) return;
+    if (order_of_first < 0) tied_.clear();
+    tied_.push_back(contact);
+    if (order_of_first < 0 || is_before(contact, *first_)) first_ = contact;
+  }
+
+  /// By the time, and what meets at it.
+  static std::strong_ordering compare(const Contact<D>& x, const Contact<D>& y) {
+    if (const auto order = x.exact_time() <=> y.exact_time(); order != 0) return order;
+    return std::tie(x.body, x.kind) <=> std::tie(y.body, y.kind);
+  }
+
+  /// The vertex or the two ends of the edge of a wall that is met.
+  Points<D> feature_of(const Contact<D>& contact) const {
+    const Points<D> loop = corners_of(snapshot_, contact.facet);
+    Points<D> feature{loop[contact.corner]};
+    if (contact.kind == Contact_kind::edge) feature.push_back(loop[(contact.corner + 1) % loop.size()]);
+    std::ranges::sort(feature);
+    return feature;
+  }
+
+  /// True if all contacts are with one vertex or edge, round which their walls are linked: then any flood that
+  /// finds one of them finds all.
+  bool are_linked(std::span<const Contact<D>> contacts) const {
+    const Points<D> feature = feature_of(contacts[0]);
+    for (const Contact<D>& other : contacts)
+      if (feature_of(other) != feature) return false;
+    std::size_t found = 0;
+    Cell_list cells;
+    cells.assign(snapshot_.cell_of(contacts[0].facet));
+    for (std::size_t next = 0; next < cells.size(); ++next) {
+      const Cell cell = cells[next];
+      for (std::size_t i = 0; i < snapshot_.view(cell).facet_count(); ++i) {
+        const Half_facet half = Snapshot<D>::half_facet(cell, i);
+        const Points<D> corners = corners_of(snapshot_, half);
+        const auto is_corner = [&](const Point<D>& x) {
+          return std::ranges::find(corners, x) != corners.end();
+        };
+        if (!std::ranges::all_of(feature, is_corner)) continue;
+        if (snapshot_.is_impassable(half))
+          found += static_cast<std::size_t>(std::ranges::count(contacts, half, &Contact<D>::facet));
+        else if (const Cell behind = snapshot_.neighbour(half); !cells.contains(behind))
+          cells.add(behind);
+      }
+    }
+    return found == contacts.size();
+  }
+
+  /// True if a point off the plane of a facet is on the side of the cell.
+  bool has_inside(Half_facet wall, const Point<D>& x) const {
+    Walk_counts uncounted;
+    return side<Exact>(snapshot_.view(snapshot_.cell_of(wall)), snapshot_.facet_of(wall), x, uncounted) < 0;
   }
 
   const Snapshot<D>& snapshot_;
@@ -203,6 +279,7 @@ class Thick_sweep {
   Points<D> before_;
   std::vector<Blocking_wall> blocking_;
   std::optional<Contact<D>> close_, first_;
+  std::vector<Contact<D>> tied_;  ///< at the time of the first, by features of the same kinds
   Distance_counts distance_counts_;
 };
 
@@ -212,6 +289,13 @@ template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts, Swept_part part) {
   return Thick_sweep<D>(snapshot, start, motion, part).run(counts);
+}
+
+template <int D>
+std::optional<Contact<D>> contact_without_flood(const Snapshot<D>& snapshot, Cell start,
+                                                const Thick_motion<D>& motion,
+                                                std::span<const Half_facet> walls, Swept_part part) {
+  return Thick_sweep<D>(snapshot, start, motion, part).run_on(walls);
 }
 
 void check_thick_sweep(const Sweep_options& options) {
@@ -235,6 +319,11 @@ double clearance(const Snapshot<D>& snapshot, Cell start, const Point<D>& p, con
 
 template double clearance<2>(const Snapshot<2>&, Cell, const Point<2>&, const Point<2>&, double);
 template double clearance<3>(const Snapshot<3>&, Cell, const Point<3>&, const Point<3>&, double);
+
+template std::optional<Contact<2>> contact_without_flood(const Snapshot<2>&, Cell, const Thick_motion<2>&,
+                                                         std::span<const Half_facet>, Swept_part);
+template std::optional<Contact<3>> contact_without_flood(const Snapshot<3>&, Cell, const Thick_motion<3>&,
+                                                         std::span<const Half_facet>, Swept_part);
 
 template Thick_result<2> sweep_thick<2>(const Snapshot<2>&, Cell, const Thick_motion<2>&, Edge_counts&,
                                         Swept_part);

@@ -4,7 +4,6 @@
 #include <cellwalk/internal/environment/cell_cluster.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace cellwalk::detail {
@@ -29,18 +28,8 @@ template <int D>
 class Packed_boxes {
  public:
   void add(const Plane_frame<D>& frame, const Box<D>& box, std::uint32_t facet) {
+    Facet_boxes<D>& last = next_block(boxes_, count_);
     const std::size_t lane = count_++ % 4;
-    if (lane == 0) {
-      Facet_boxes<D> empty;
-      const float far = std::numeric_limits<float>::infinity();
-      for (std::size_t k = 0; k < D; ++k) {
-        empty.low[k] = Float4{far, far, far, far};
-        empty.high[k] = -empty.low[k];
-      }
-      empty.facets.fill(0);
-      boxes_.push_back(empty);
-    }
-    Facet_boxes<D>& last = boxes_.back();
     for (std::size_t k = 0; k < D; ++k) {
       last.low[k][lane] = below(mapped<D>(frame, box.low, k));
       last.high[k][lane] = above(mapped<D>(frame, box.high, k));

@@ -55,6 +55,26 @@ typename Ring_hulls<D>::Corner ring_point(const Point<D>& from, const Point<D>& 
 }  // namespace
 
 template <int D>
+Parting_plane<D>::Parting_plane(std::span<const Point<D>> corners) : origin_(corners[0]) {
+  double extent = 0;
+  for (const Point<D>& x : corners)
+    for (std::size_t k = 0; k < D; ++k) extent = std::max(extent, std::abs(x[k] - origin_[k]));
+  const Feature_pair plane = plane_of<D>(corners.size());
+  if (!(plane.b.size != 0 && extent > 0x1p-400)) return;
+  const auto direction = scaled_direction<D>(direction_of<double, D>({corners, corners}, plane));
+  if (!direction) return;
+  direction_ = *direction;
+  extent_ = extent;
+  for (const Point<D>& x : corners) {
+    const double at = dot(direction_, x - origin_);
+    low_ = std::min(low_, at), high_ = std::max(high_, at);
+  }
+}
+
+template class Parting_plane<2>;
+template class Parting_plane<3>;
+
+template <int D>
 bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Feature_pair& near,
               Distance_counts& counts) {
   const Filter<D> filter(a, b, r);
@@ -64,13 +84,12 @@ bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r
   }
   const bool is_in_range = filter.is_in_range();
   if (is_in_range) {
-    const bool is_known = is_pair<D>(near, a.size(), b.size());
-    const Feature_pair first = is_known ? near : plane_of<D>(b.size());
-    if ((is_known || first.a.size != 0) && filter.parts(first)) {
-      ++counts.planes;
-      near = first;
-      return true;
-    }
+    for (const Feature_pair& first : {near, plane_of<D>(b.size())})
+      if (is_pair<D>(first, a.size(), b.size()) && filter.parts(first)) {
+        ++counts.planes;
+        near = first;
+        return true;
+      }
   }
   const Relative_nearest<D> nearest = nearest_features<D>(a, b);
   if (is_in_range) {

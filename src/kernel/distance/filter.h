@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "directions.h"
 
@@ -34,6 +35,14 @@ inline bool differ_by(double a, double b, double r) {
   if (d != r) return d > r;
   const double part = a - d;
   return (a - (d + part)) + (part - b) >= 0;
+}
+
+/// A direction n as v, see above; none if the bounds do not hold for it.
+template <int D>
+std::optional<Vector<D>> scaled_direction(const Vector<D>& n) {
+  const double squared = dot(n, n);
+  if (!(squared > 0x1p-900 && squared < 0x1p900)) return {};
+  return ((1 - 0x1p-50) / std::sqrt(squared)) * n;
 }
 
 /// Two hulls in doubles. They are referred to.
@@ -63,9 +72,9 @@ class Filter {
   /// nothing.
   /// \pre is_in_range()
   double gap(const Vector<D>& n) const {
-    const double squared = dot(n, n);
-    if (!(squared > 0x1p-900 && squared < 0x1p900)) return -1;
-    const Vector<D> v = ((1 - 0x1p-50) / std::sqrt(squared)) * n;
+    const std::optional<Vector<D>> direction = scaled_direction<D>(n);
+    if (!direction) return -1;
+    const Vector<D>& v = *direction;
     double a_low = dot(v, a_[0] - b_[0]), a_high = a_low, b_low = 0, b_high = 0;
     for (std::size_t i = 1; i < a_.size(); ++i) {
       const double at = dot(v, a_[i] - b_[0]);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walls near an edge or a face with a radius, which decide its moves as long as it stays where they were
-// listed.
+// The walls near a connected part of a body with a radius, which decide its moves as long as it stays in a
+// box.
 // Theory: docs/radius.md, lists of near walls.
 #ifndef CELLWALK_INTERNAL_EDGE_NEAR_WALL_LIST_H
 #define CELLWALK_INTERNAL_EDGE_NEAR_WALL_LIST_H
 
 #include <cellwalk/edge/chain.h>
 #include <cellwalk/internal/edge/thick_sweep.h>
+#include <cellwalk/internal/environment/cell_cluster.h>
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/kernel/distance.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,50 +18,59 @@
 
 namespace cellwalk::detail {
 
-/// All moves of its corners must be tested by the list, or it must be forgotten. Nothing is counted: lists
-/// are not saved with a body, whose counts would depend on that.
+/// All moves of the corners of the part must be tested by the list, or it must be forgotten. Nothing is
+/// counted: lists are not saved with a body, whose counts would depend on that.
 template <int D>
 class Near_wall_list {
  public:
-  /// True if a motion is free: the exact answer.
-  /// \param start a free cell in whose closure motion.p lies
-  /// \param motion of a vertex without edges, an edge or a face, the same each time
-  /// \param moving the number of p among its corners; q and the third one follow in cyclic order
+  /// True if the list decides motions of edges and faces of the part, or of its vertex.
+  bool holds(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions) const;
+  /// Lists the walls around a part.
+  /// \param start a free cell in whose closure the corner lies that moves
+  /// \param part the box of all its corners
+  /// \param radius the largest of its radii
+  /// \param motions at one corner, at least one; the list will hold for them
+  /// \pre the edges of the part, or its one vertex, are at least at the distance of their radii from all
+  ///      walls, and join all of its corners
+  /// Cost: a flood of the clusters of cells nearer than the radius and the reach, which follows from the work
+  /// with the list before.
+  void make(const Snapshot<D>& snapshot, Cell start, const Box<D>& part, double radius,
+            std::span<const Thick_motion<D>> motions);
+  /// True if motions at one corner are free: the exact answer.
   /// \param part that has to keep the distance; all tested parts of one motion count as its test
-  /// \pre where the motion starts, it is at least at the distance of its radius from every wall; the radius
-  ///        is that of all motions before
-  /// Cost: a comparison of boxes for each wall listed, is_apart() for those near; a flood of the cells nearer
-  /// than the radius and the reach where the list ends, and a closer look at its walls if it lasts.
-  bool is_free(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, std::size_t moving,
-               Swept_part part = Swept_part::all);
-  /// Its corners are about to move without a test.
-  void forget() { square_of_reach_ = -1; }
+  /// \pre holds(); where the motions start, they are at least at the distance of their radii from every wall
+  /// Cost: a comparison of boxes for four walls at a time, is_apart() for those near.
+  bool are_free(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions,
+                Swept_part part = Swept_part::all);
+  /// The walls that may be near a motion: among them all that are.
+  /// \pre holds()
+  std::vector<Half_facet> walls_near(const Snapshot<D>& snapshot, const Thick_motion<D>& motion);
+  /// Some corners of the part are about to move without a test.
+  void forget() { box_ = {}; }
 
  private:
   struct Wall {
-    std::uint32_t first, last;  ///< its corners
-    Box<D> box;
+    std::uint32_t first = 0, last = 0;  ///< its corners
+    Parting_plane<D> plane;
     Feature_pair near;  ///< that was nearest when it was last tested
   };
 
-  bool reaches(const Thick_motion<D>& motion, std::size_t moving) const;
-  bool is_apart_from_all(const Swept_hull<D>& hull, double radius);
-  std::span<const Point<D>> corners_of(const Wall& wall) const {
-    return {corners_.data() + wall.first, corners_.data() + wall.last};
+  void add(const Facet_boxes<D>& boxes, std::size_t lane);
+  Wall& look_up(const Snapshot<D>& snapshot, std::size_t wall) {
+    if (walls_[wall].last == 0) take_corners(snapshot, wall);
+    return walls_[wall];
   }
-  void refine(std::size_t corners);
-  void make(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion, std::size_t moving);
+  void take_corners(const Snapshot<D>& snapshot, std::size_t wall);
+  bool is_far(Wall& wall, const Thick_motion<D>& motion, Swept_part part);
 
-  std::vector<Wall> walls_;
-  std::vector<Point<D>> corners_;
-  std::array<Point<D>, 3> listed_{};  ///< where the corners were
+  Box<D> box_;  ///< of what it holds for; empty: of nothing
   std::uint64_t epoch_ = 0;
-  double square_of_reach_ = -1;  ///< rounded down; negative: the list holds nothing
   double reach_ = 0;
-  double near_ = 0;          ///< the radius and the reach
-  bool is_coarse_ = false;   ///< some walls are farther than that
-  std::uint64_t boxes_ = 0;  ///< looked at by the flood: about what the list cost
-  std::uint64_t tests_ = 0;  ///< of walls since
+  std::vector<Facet_boxes<D>> boxes_;
+  std::vector<Wall> walls_;  ///< of the lanes of the boxes; known once they were needed
+  std::vector<Point<D>> corners_;
+  std::uint64_t cost_ = 0;   ///< of the flood, in blocks of four boxes
+  std::uint64_t tests_ = 0;  ///< of blocks since
 };
 
 extern template class Near_wall_list<2>;

@@ -10,6 +10,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include <optional>
+#include <span>
 
 namespace cellwalk::detail {
 
@@ -82,6 +83,19 @@ struct Thick_result {
 template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts, Swept_part part = Swept_part::all);
+
+/// The contact that sweep_thick() finds, without its flood. The interior of a facet is met from the side on which
+/// the vertex is, and any flood comes there; an edge or a vertex belongs to several walls, of which a flood finds
+/// all that are linked at it.
+/// \param walls all that are nearer to the motion than its radius and found by the flood, in any order; others may
+///        be among them
+/// \pre the motion starts free, and is not
+/// \return none if the walls are not linked: then the flood has to decide which of them are named
+template <int D>
+std::optional<Contact<D>> contact_without_flood(const Snapshot<D>& snapshot, Cell start,
+                                                const Thick_motion<D>& motion,
+                                                std::span<const Half_facet> walls,
+                                                Swept_part part = Swept_part::all);
 
 /// \throw Error(usage) for what edges with a radius cannot do
 void check_thick_sweep(const Sweep_options& options);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,7 +27,24 @@ template <int D>
 struct Facet_boxes {
   std::array<Float4, D> low, high;
   std::array<std::uint32_t, 4> facets;  ///< half-facets that are walls, or clusters behind passages
+
+  /// Without a facet.
+  static Facet_boxes none() {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    Facet_boxes boxes;
+    boxes.low.fill(Float4{far, far, far, far});
+    boxes.high.fill(Float4{-far, -far, -far, -far});
+    boxes.facets.fill(0);
+    return boxes;
+  }
 };
+
+/// The block for the next facet of a list that has so many.
+template <int D>
+Facet_boxes<D>& next_block(std::vector<Facet_boxes<D>>& blocks, std::size_t facets) {
+  if (facets % 4 == 0) blocks.push_back(Facet_boxes<D>::none());
+  return blocks.back();
+}
 
 template <int D>
 struct Cell_cluster {

@@ -32,6 +32,12 @@ struct Box {
       if (other.high[k] < low[k] || high[k] < other.low[k]) return false;
     return true;
   }
+  /// True if the other box lies in it.
+  bool contains(const Box& other) const {
+    for (std::size_t k = 0; k < D; ++k)
+      if (!(low[k] <= other.low[k] && other.high[k] <= high[k])) return false;
+    return true;
+  }
   void extend(const Point<D>& x) { extend(Box{x, x}); }
   void extend(const Box& other) {
     for (std::size_t k = 0; k < D; ++k) {

@@ -7,9 +7,12 @@
 #include <cellwalk/internal/kernel/counts.h>
 #include <cellwalk/kernel/point.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -50,6 +53,34 @@ inline Feature facet_feature(std::size_t i, std::size_t j, std::size_t k) {
 /// A feature of each of two hulls, between which they are nearest: together of dimension D - 1 at most.
 struct Feature_pair {
   Feature a, b;
+};
+
+/// The plane of a wall (2D: its line), made once for many tests in doubles of whether it parts the wall from
+/// others. The bounds are those of is_apart(), see filter.h of the kernel.
+template <int D>
+class Parting_plane {
+ public:
+  /// That parts nothing.
+  Parting_plane() = default;
+  /// \param corners as `b` of is_apart(), at least one
+  explicit Parting_plane(std::span<const Point<D>> corners);
+  /// True proves that the hull of some points is more than r away from the wall.
+  bool parts(std::span<const Point<D>> points, double r) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low, extent = extent_;
+    for (const Point<D>& x : points) {
+      const Vector<D> from_origin = x - origin_;
+      const double at = dot(direction_, from_origin);
+      low = std::min(low, at), high = std::max(high, at);
+      for (const double c : from_origin) extent = std::max(extent, std::abs(c));
+    }
+    return std::max(low - high_, low_ - high) - 0x1p-48 * extent > r && extent < 0x1p400;
+  }
+
+ private:
+  Point<D> origin_{};
+  Vector<D> direction_{};                                    ///< scaled to a length just below 1
+  double low_ = 0, high_ = 0;                                ///< of the corners along it
+  double extent_ = std::numeric_limits<double>::infinity();  ///< of the corners around the origin
 };
 
 /// Is the distance of two hulls at least r? Exact in every position.
