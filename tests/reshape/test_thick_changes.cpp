@@ -93,6 +93,36 @@ TEST_F(InTheGrid, ACellFarFromItsFacetsIsFilled) {
   EXPECT_TRUE(reshaping.fill(cell_at({1, 3, 3})).is_made);
 }
 
+// A wall vertex leaves the frame of the planes, and the list of walls of a vertex is made before finish() makes
+// another frame.
+TEST(ThickChanges, ListsOutliveFrames) {
+  Cell_soup<2> soup;
+  soup.points = {{-3, -0.5}, {0, -0.5}, {3, -0.5}, {3, 0.5}, {-3, 0.5}};
+  for (const auto& [a, b, c] : {std::array<std::uint32_t, 3>{0, 1, 4}, {1, 3, 4}, {1, 2, 3}}) {
+    soup.add_facet({a, b});
+    soup.add_facet({b, c});
+    soup.add_facet({c, a});
+    soup.end_cell();
+  }
+  auto channel = Environment<2>::build(soup, {.simplicial = true});
+  Body<2> body(channel, {{{-0.25, 0}}, {}, {}, {0.5}});
+  Reshaping<2> reshaping(channel, {{&body}, {}}, {.at_contact = At_contact::push});
+  const auto number_of = [&](const Point<2>& x) {
+    const auto points = channel.snapshot().points();
+    return static_cast<std::uint32_t>(std::ranges::find(points, x) - points.begin());
+  };
+  EXPECT_EQ(reshaping.move(number_of({3, 0.5}), {60, 0.5}).end, Move_end::reached);
+  EXPECT_EQ(reshaping.move(number_of({0, -0.5}), {0, 0.2}).end, Move_end::contact);
+  reshaping.finish();
+  Step_report<2> report;
+  Body_counts counts;
+  Body_options options;
+  options.clearance = false;
+  body.step(std::vector<Point<2>>{{-0.25, 0.25}}, options, report, counts);
+  EXPECT_EQ(report.contacts.size(), 1u);
+  EXPECT_NO_THROW(body.validate());
+}
+
 struct Toggled {
   int made = 0, held = 0, inside = 0, missed = 0, false_holds = 0, wrong_holders = 0, too_near = 0;
   int wrong() const { return missed + false_holds + wrong_holders + too_near; }

@@ -10,6 +10,20 @@
 #include "region_search.h"
 
 namespace cellwalk::detail {
+namespace {
+
+/// The length of a vector whose square may underflow.
+template <int D>
+double scaled_length(const Vector<D>& n) {
+  double largest = 0;
+  for (const double x : n) largest = std::max(largest, std::abs(x));
+  if (largest == 0) return 0;
+  Vector<D> scaled;
+  for (std::size_t k = 0; k < D; ++k) scaled[k] = n[k] / largest;
+  return largest * length(scaled);
+}
+
+}  // namespace
 
 template <int D>
 void Clear_region<D>::move_inwards(double r) {
@@ -27,7 +41,7 @@ void Clear_region<D>::move_inwards(double r) {
   for (const Wall_plane<D>& plane : planes) {
     const Vector<D>& n = plane.normal;
     const double rounding = 2 * product_error * (magnitude<D>(n, sizes) + least_magnitude);
-    const double way = r * length(n) * (1 + 0x1p-48) + least_magnitude;
+    const double way = r * scaled_length<D>(n) * (1 + 0x1p-48) + least_magnitude;
     // Both differences are rounded, too.
     const double inside = plane.inside - (rounding + way) * (1 + 0x1p-48);
     const double offset = inside - product_error * std::abs(inside);

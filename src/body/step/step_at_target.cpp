@@ -255,10 +255,7 @@ bool Target_step<D>::is_way_close(std::uint32_t vertex, const Point<D>& target, 
     return body_.thick.is_edge_free(body_, vertex, corner, target, Swept_part::way);
   };
   if (!corners.empty() && std::ranges::all_of(corners, is_free)) return false;
-  const Thick_motion<D> way{
-      body_.positions[vertex], target, {}, body_.thick.radius_at(body_.topology, vertex)};
-  tried.keep_located(
-      body_.thick.contact(body_, body_.particles[vertex].cell, vertex, way, Swept_part::all, counts_.edges));
+  tried.keep_located(body_.thick.contact_on_way(body_, vertex, target));
   return tried.answer.is_vertex_blocked = true;
 }
 
@@ -279,8 +276,8 @@ void Target_step<D>::test_end_of_thick(std::uint32_t vertex, std::size_t number,
   // A particle as thick as the edge meets the wall as it goes along it.
   const Thick_motion<D> along{
       to.position, body_.positions[corner.other], {}, body_.thick.radius(corner.edge)};
-  tried.keep_located(body_.thick.contact(body_, to.cell, body_.topology.edges()[corner.edge][0], along,
-                                         Swept_part::all, counts_.edges));
+  tried.keep_located(
+      body_.thick.contact(body_, to.cell, body_.topology.edges()[corner.edge][0], along, Swept_part::all));
 }
 
 /// True if the edge of a corner is free while its vertex goes its way: then its chain is known.

@@ -129,7 +129,7 @@ std::optional<Contact<D>> contact_of_thick(Body_state<D>& body, Move_scratch<D>&
   refresh_star(body, vertex, counts);
   if (body.thick.is_free(body, vertex, target, options.sweep)) return {};
   if (any) return Contact<D>{};
-  auto first = body.thick.first_contact(body, vertex, target, options.sweep, counts.edges);
+  auto first = body.thick.first_contact(body, vertex, target, options.sweep);
   if (!first) refuse_uncertified();
   if (body.has_thin(vertex, options.sweep)) {
     Particle<D> to;

@@ -152,6 +152,7 @@ void Thick_parts<D>::forget_faces() {
   for (Group& group : groups_) group.near_walls.forget();
 }
 
+/// The largest radius of its edges, or that of a vertex without edges.
 template <int D>
 double Thick_parts<D>::radius_at(const Body_topology& topology, std::uint32_t vertex) const {
   const auto corners = topology.corners_of(vertex);
@@ -225,31 +226,41 @@ bool Thick_parts<D>::is_free(const Body_state<D>& body, std::uint32_t vertex, co
   return true;
 }
 
-/// What a list finds does not depend on the list, so nothing of it is counted.
+/// Nothing is counted: whether there is a list depends on what was done before.
 template <int D>
-std::optional<Contact<D>> Thick_parts<D>::contact(const Body_state<D>& body, Cell start,
-                                                  std::uint32_t vertex_of_group,
-                                                  const Thick_motion<D>& motion, Swept_part part,
-                                                  Edge_counts& counts) {
+std::optional<Contact<D>> Thick_parts<D>::contact(const Body_state<D>& body, Cell start, std::uint32_t first,
+                                                  const Thick_motion<D>& motion, Swept_part part) {
   const Snapshot<D>& snapshot = *body.snapshot;
-  Group& group = groups_[group_of_[vertex_of_group]];
+  Group& group = groups_[group_of_[first]];
   if (motion.radius <= group.radius && group.near_walls.holds(snapshot, {&motion, 1}))
     if (auto met = contact_without_flood<D>(snapshot, start, motion,
                                             group.near_walls.walls_near(snapshot, motion), part))
       return met;
-  return sweep_thick<D>(snapshot, start, motion, counts, part).contact;
+  Edge_counts uncounted;
+  return sweep_thick<D>(snapshot, start, motion, uncounted, part).contact;
+}
+
+/// By the list of an edge, which its moves have tested in any case; that of the vertex may be one of faces.
+template <int D>
+std::optional<Contact<D>> Thick_parts<D>::contact_on_way(const Body_state<D>& body, std::uint32_t vertex,
+                                                         const Point<D>& target) {
+  const Thick_motion<D> way{body.positions[vertex], target, {}, radius_at(body.topology, vertex)};
+  const auto corners = body.topology.corners_of(vertex);
+  const auto widest =
+      std::ranges::max_element(corners, {}, [&](const Corner& corner) { return radius(corner.edge); });
+  return contact(body, body.particles[vertex].cell,
+                 corners.empty() ? vertex : body.topology.edges()[widest->edge][0], way, Swept_part::all);
 }
 
 template <int D>
 std::optional<Contact<D>> Thick_parts<D>::first_contact(const Body_state<D>& body, std::uint32_t vertex,
-                                                        const Point<D>& target, Sweep sweep,
-                                                        Edge_counts& counts) {
+                                                        const Point<D>& target, Sweep sweep) {
   const Point<D>& p = body.positions[vertex];
   const Cell start = body.particles[vertex].cell;
   std::optional<Contact<D>> first;
   const auto look_at = [&](const Thick_motion<D>& motion, std::uint32_t first_vertex, std::uint32_t part) {
     if (motion.radius == 0) return;
-    const auto met = contact(body, start, first_vertex, motion, part_of(sweep), counts);
+    const auto met = contact(body, start, first_vertex, motion, part_of(sweep));
     if (!met || (first && !meets_before(*met, *first))) return;
     first = met;
     if (motion.third) first->body = Body_feature::face;  // else its vertex or edge would have met it as well

@@ -46,19 +46,19 @@ class Thick_parts {
   bool is_free(const Body_state<D>& body, std::uint32_t vertex, const Point<D>& target, Sweep sweep);
   /// Their first contact; none if the vertex can move.
   std::optional<Contact<D>> first_contact(const Body_state<D>& body, std::uint32_t vertex,
-                                          const Point<D>& target, Sweep sweep, Edge_counts& counts);
+                                          const Point<D>& target, Sweep sweep);
   /// Whether an edge of a vertex, if it has a radius, can do a part of such a move.
   /// \pre as is_free()
   bool is_edge_free(const Body_state<D>& body, std::uint32_t vertex, const Corner& corner,
                     const Point<D>& target, Swept_part part);
-  /// The contact of a motion of a vertex, alone or with edges and faces, on its way or from its end, as
-  /// sweep_thick() finds it.
-  /// \param vertex_of_group one to whose group what moves belongs
+  /// The contact of a motion at an edge, or of a vertex without edges, as sweep_thick() finds it.
+  /// \param first the first vertex of the edge, or that vertex
   /// \pre the motion starts free, in that cell
-  std::optional<Contact<D>> contact(const Body_state<D>& body, Cell start, std::uint32_t vertex_of_group,
-                                    const Thick_motion<D>& motion, Swept_part part, Edge_counts& counts);
-  /// The largest radius of its edges, or that of a vertex without edges.
-  double radius_at(const Body_topology& topology, std::uint32_t vertex) const;
+  std::optional<Contact<D>> contact(const Body_state<D>& body, Cell start, std::uint32_t first,
+                                    const Thick_motion<D>& motion, Swept_part part);
+  /// That of the way of a vertex, by the largest radius at it.
+  std::optional<Contact<D>> contact_on_way(const Body_state<D>& body, std::uint32_t vertex,
+                                           const Point<D>& target);
   /// True if some edge or, for Sweep::faces, face of a vertex has no radius, or the vertex has neither.
   bool has_thin(const Body_topology& topology, std::uint32_t vertex, Sweep sweep) const;
   /// Moves without a test make lists of walls void: of an edge and the faces at it, of a vertex without edges,
@@ -68,6 +68,7 @@ class Thick_parts {
   void forget_faces();
 
  private:
+  double radius_at(const Body_topology& topology, std::uint32_t vertex) const;
   /// Vertices joined by edges with a radius, the edges and faces whose first vertex is one of them, and the
   /// walls near all that.
   struct Group {

@@ -78,6 +78,7 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Box<
   reach_ = reach_ == 0 ? first_reach * way : tests_ < cost_ ? 2 * reach_ : reach_ / 2;
   reach_ = std::min(reach_, std::max(first_reach * way, largest_side(part) + radius));
   epoch_ = snapshot.epoch();
+  frame_ = snapshot.frame();
   box_ = part;
   box_.extend(box_of(motions));
   box_ = enlarged(box_, reach_);
@@ -85,7 +86,7 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Box<
   walls_.clear();
   corners_.clear();
   cost_ = tests_ = 0;
-  const Frame_box<D> reach(snapshot.frame(), enlarged(box_, radius));
+  const Frame_box<D> reach(frame_, enlarged(box_, radius));
   flood_clusters(snapshot, start, reach, [&](const Cell_cluster<D>& cluster, std::size_t) {
     cost_ += cluster.walls.size() + cluster.passages.size();
     for (const Facet_boxes<D>& all : cluster.walls)
@@ -111,7 +112,7 @@ template <int D>
 bool Near_wall_list<D>::are_free(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions,
                                  Swept_part part) {
   const Points_of_motions<D> all(motions, part);
-  const Frame_box<D> near(snapshot.frame(), all.box());
+  const Frame_box<D> near(frame_, all.box());
   tests_ += boxes_.size();
   for (std::size_t block = 0; block < boxes_.size(); ++block)
     for (unsigned met = near.met(boxes_[block]); met != 0; met &= met - 1) {
@@ -127,7 +128,7 @@ template <int D>
 std::vector<Half_facet> Near_wall_list<D>::walls_near(const Snapshot<D>& snapshot,
                                                       const Thick_motion<D>& motion) {
   const Points_of_motions<D> all({&motion, 1}, Swept_part::all);
-  const Frame_box<D> near(snapshot.frame(), all.box());
+  const Frame_box<D> near(frame_, all.box());
   std::vector<Half_facet> walls;
   for (std::size_t block = 0; block < boxes_.size(); ++block)
     for_each_met(near, boxes_[block], [&](std::size_t lane) {

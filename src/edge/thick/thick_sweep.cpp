@@ -217,17 +217,11 @@ class Thick_sweep {
     contact.body = body_feature(near.of_motion);
     contact.cell = start_;
     set_feature(contact, wall, order, near.of_wall);
-    const auto order_of_first = first_ ? compare(contact, *first_) : std::strong_ordering::less;
-    if (order_of_first > 0) return;
-    if (order_of_first < 0) tied_.clear();
+    const auto by_time = first_ ? contact.exact_time() <=> first_->exact_time() : std::strong_ordering::less;
+    if (by_time > 0) return;
+    if (by_time < 0) tied_.clear();
     tied_.push_back(contact);
-    if (order_of_first < 0 || is_before(contact, *first_)) first_ = contact;
-  }
-
-  /// By the time, and what meets at it.
-  static std::strong_ordering compare(const Contact<D>& x, const Contact<D>& y) {
-    if (const auto order = x.exact_time() <=> y.exact_time(); order != 0) return order;
-    return std::tie(x.body, x.kind) <=> std::tie(y.body, y.kind);
+    if (by_time < 0 || is_before(contact, *first_)) first_ = contact;
   }
 
   /// The vertex or the two ends of the edge of a wall that is met.
@@ -240,11 +234,11 @@ class Thick_sweep {
   }
 
   /// True if all contacts are with one vertex or edge, round which their walls are linked: then any flood that
-  /// finds one of them finds all.
+  /// finds one of them finds all, and it finds one.
   bool are_linked(std::span<const Contact<D>> contacts) const {
     const Points<D> feature = feature_of(contacts[0]);
     for (const Contact<D>& other : contacts)
-      if (feature_of(other) != feature) return false;
+      if (other.kind != contacts[0].kind || feature_of(other) != feature) return false;
     std::size_t found = 0;
     Cell_list cells;
     cells.assign(snapshot_.cell_of(contacts[0].facet));
@@ -279,7 +273,7 @@ class Thick_sweep {
   Points<D> before_;
   std::vector<Blocking_wall> blocking_;
   std::optional<Contact<D>> close_, first_;
-  std::vector<Contact<D>> tied_;  ///< at the time of the first, by features of the same kinds
+  std::vector<Contact<D>> tied_;  ///< at the time of the first
   Distance_counts distance_counts_;
 };
 

@@ -66,6 +66,7 @@ class Near_wall_list {
   Box<D> box_;  ///< of what it holds for; empty: of nothing
   std::uint64_t epoch_ = 0;
   double reach_ = 0;
+  Plane_frame<D> frame_;  ///< of the boxes: that of the snapshot may change, and the walls not
   std::vector<Facet_boxes<D>> boxes_;
   std::vector<Wall> walls_;  ///< of the lanes of the boxes; known once they were needed
   std::vector<Point<D>> corners_;
