@@ -93,8 +93,8 @@ TEST_F(InTheGrid, ACellFarFromItsFacetsIsFilled) {
   EXPECT_TRUE(reshaping.fill(cell_at({1, 3, 3})).is_made);
 }
 
-// A wall vertex leaves the frame of the planes, and the list of walls of a vertex is made before finish() makes
-// another frame.
+// A wall vertex leaves the frame of the planes, and the list of walls of a vertex is made before finish()
+// makes another frame.
 TEST(ThickChanges, ListsOutliveFrames) {
   Cell_soup<2> soup;
   soup.points = {{-3, -0.5}, {0, -0.5}, {3, -0.5}, {3, 0.5}, {-3, 0.5}};

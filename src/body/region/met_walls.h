@@ -5,7 +5,6 @@
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/internal/environment/cell_cluster.h>
-#include <cellwalk/internal/environment/cluster_flood.h>
 
 #include <algorithm>
 #include <bit>

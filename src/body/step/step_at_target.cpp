@@ -238,8 +238,8 @@ Tried_move<D> Target_step<D>::try_on_sides(std::uint32_t vertex, const Point<D>&
   return tried;
 }
 
-/// True if edges with a radius, or a vertex alone, keep their distance all the way: most do, and need no other
-/// test.
+/// True if edges with a radius, or a vertex alone, keep their distance all the way: most do, and need no
+/// other test.
 template <int D>
 bool Target_step<D>::is_sweep_of_thick_free(std::uint32_t vertex, const Point<D>& target) {
   for (const Corner& corner : body_.topology.corners_of(vertex)) body_.refresh_edge(corner.edge, counts_);

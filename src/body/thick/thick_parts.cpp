@@ -92,8 +92,7 @@ void Thick_parts<D>::form_groups(const Body_topology& topology, std::size_t vert
       add_to_group(topology.faces()[f][0], topology.faces()[f], r);
   for (Group& group : groups_) {
     std::ranges::sort(group.corners);
-    const auto same = std::ranges::unique(group.corners);
-    group.corners.erase(same.begin(), same.end());
+    group.corners.erase(std::unique(group.corners.begin(), group.corners.end()), group.corners.end());
   }
 }
 

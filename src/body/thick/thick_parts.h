@@ -61,8 +61,8 @@ class Thick_parts {
                                            const Point<D>& target);
   /// True if some edge or, for Sweep::faces, face of a vertex has no radius, or the vertex has neither.
   bool has_thin(const Body_topology& topology, std::uint32_t vertex, Sweep sweep) const;
-  /// Moves without a test make lists of walls void: of an edge and the faces at it, of a vertex without edges,
-  /// or of all faces.
+  /// Moves without a test make lists of walls void: of an edge and the faces at it, of a vertex without
+  /// edges, or of all faces.
   void forget(const Body_topology& topology, std::uint32_t edge);
   void forget_vertex(const Body_topology& topology, std::uint32_t vertex);
   void forget_faces();

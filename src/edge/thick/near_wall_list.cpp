@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The flood that fills a list, and the tests of a motion against it.
 #include <cellwalk/internal/edge/near_wall_list.h>
-#include <cellwalk/internal/environment/cluster_flood.h>
+#include <cellwalk/internal/environment/cell_cluster.h>
 
 #include <boost/container/small_vector.hpp>
 

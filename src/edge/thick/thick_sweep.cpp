@@ -233,8 +233,8 @@ class Thick_sweep {
     return feature;
   }
 
-  /// True if all contacts are with one vertex or edge, round which their walls are linked: then any flood that
-  /// finds one of them finds all, and it finds one.
+  /// True if all contacts are with one vertex or edge, round which their walls are linked: then any flood
+  /// that finds one of them finds all, and it finds one.
   bool are_linked(std::span<const Contact<D>> contacts) const {
     const Points<D> feature = feature_of(contacts[0]);
     for (const Contact<D>& other : contacts)

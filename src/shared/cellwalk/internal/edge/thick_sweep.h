@@ -84,11 +84,11 @@ template <int D>
 Thick_result<D> sweep_thick(const Snapshot<D>& snapshot, Cell start, const Thick_motion<D>& motion,
                             Edge_counts& counts, Swept_part part = Swept_part::all);
 
-/// The contact that sweep_thick() finds, without its flood. The interior of a facet is met from the side on which
-/// the vertex is, and any flood comes there; an edge or a vertex belongs to several walls, of which a flood finds
-/// all that are linked at it.
-/// \param walls all that are nearer to the motion than its radius and found by the flood, in any order; others may
-///        be among them
+/// The contact that sweep_thick() finds, without its flood. The interior of a facet is met from the side on
+/// which the vertex is, and any flood comes there; an edge or a vertex belongs to several walls, of which a
+/// flood finds all that are linked at it.
+/// \param walls all that are nearer to the motion than its radius and found by the flood, in any order;
+///        others may be among them
 /// \pre the motion starts free, and is not
 /// \return none if the walls are not linked: then the flood has to decide which of them are named
 template <int D>

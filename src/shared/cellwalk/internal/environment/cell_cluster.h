@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A cluster of cells: the boxes of its walls and passages. See cell_clusters.h.
+// A cluster of cells: the boxes of its walls and passages, and floods through these. See cell_clusters.h.
 #ifndef CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
 #define CELLWALK_INTERNAL_ENVIRONMENT_CELL_CLUSTER_H
 
+#include <cellwalk/internal/environment/cell_clusters.h>
 #include <cellwalk/internal/environment/planes.h>
 #include <cellwalk/internal/kernel/box.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -72,6 +75,33 @@ struct Frame_box {
 template <int D>
 std::unique_ptr<const Cell_cluster<D>> make_cluster(const Snapshot<D>& snapshot, std::uint32_t number,
                                                     std::uint32_t size);
+
+/// Calls use(lane) for the lanes whose boxes a box meets.
+template <int D, class Use>
+void for_each_met(const Frame_box<D>& box, const Facet_boxes<D>& boxes, Use use) {
+  for (unsigned met = box.met(boxes); met != 0; met &= met - 1)
+    use(static_cast<std::size_t>(std::countr_zero(met)));
+}
+
+/// Calls use(cluster, number of clusters reached so far) for each cluster that is reached from that of a cell
+/// through passages whose boxes a box meets, until it returns false.
+/// Returns false if it did.
+template <int D, class Use>
+bool flood_clusters(const Snapshot<D>& snapshot, Cell first, const Frame_box<D>& box, Use use) {
+  thread_local std::vector<std::uint32_t> reached;
+  const Cell_clusters<D>& clusters = snapshot.clusters();
+  reached.assign(1, clusters.cluster_of(snapshot, first));
+  for (std::size_t head = 0; head < reached.size(); ++head) {
+    const Cell_cluster<D>& cluster = clusters.cluster(snapshot, reached[head]);
+    for (const Facet_boxes<D>& passages : cluster.passages)
+      for_each_met(box, passages, [&](std::size_t lane) {
+        const std::uint32_t next = passages.facets[lane];
+        if (std::ranges::find(reached, next) == reached.end()) reached.push_back(next);
+      });
+    if (!use(cluster, reached.size())) return false;
+  }
+  return true;
+}
 
 }  // namespace cellwalk::detail
 
