@@ -49,18 +49,16 @@ Replayed replay(Peer& peer, const Motion& motion, std::vector<std::uint8_t>& blo
 Peers build(const Scene_walls& walls, const Motion& motion, const std::string& only) {
   Peers peers;
   add_cellwalk_peers(walls, motion, peers);
+  // Rays have no radius, and Bullet's boxes with distances would be cgal_doubles.
+#ifdef CELLWALK_WITH_BULLET
+  if (motion.radius == 0) add_bullet_peers(walls, motion, peers);
+#endif
 #ifdef CELLWALK_WITH_FCL
   add_fcl_peers(walls, motion, peers);
 #endif
-  if (motion.radius ==
-      0) {  // rays have no radius; Bullet's boxes and distances would be those of cgal_doubles
-#ifdef CELLWALK_WITH_BULLET
-    add_bullet_peers(walls, motion, peers);
-#endif
 #ifdef CELLWALK_WITH_EMBREE
-    add_embree_peers(walls, motion, peers);
+  if (motion.radius == 0) add_embree_peers(walls, motion, peers);
 #endif
-  }
   add_cgal_peers(walls, motion, peers);
   if (!only.empty()) {
     const std::regex pattern(only);

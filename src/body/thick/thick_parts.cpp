@@ -142,11 +142,6 @@ void Thick_parts<D>::forget(const Body_topology& topology, std::uint32_t edge) {
 }
 
 template <int D>
-void Thick_parts<D>::forget_vertex(const Body_topology& topology, std::uint32_t vertex) {
-  if (of_vertices_ > 0 && topology.corners_of(vertex).empty()) groups_[group_of_[vertex]].near_walls.forget();
-}
-
-template <int D>
 void Thick_parts<D>::forget_faces() {
   for (Group& group : groups_) group.near_walls.forget();
 }

@@ -64,7 +64,10 @@ class Thick_parts {
   /// Moves without a test make lists of walls void: of an edge and the faces at it, of a vertex without
   /// edges, or of all faces.
   void forget(const Body_topology& topology, std::uint32_t edge);
-  void forget_vertex(const Body_topology& topology, std::uint32_t vertex);
+  void forget_vertex(const Body_topology& topology, std::uint32_t vertex) {
+    if (of_vertices_ > 0 && topology.corners_of(vertex).empty())
+      groups_[group_of_[vertex]].near_walls.forget();
+  }
   void forget_faces();
 
  private:
