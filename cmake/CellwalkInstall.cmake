@@ -49,6 +49,7 @@ set(installed_internals
   kernel/check_finite.h
   kernel/counts.h
   kernel/determinant.h
+  kernel/next_double.h
   kernel/predicates.h
   kernel/uncertified.h
   walk/certified_exit.h

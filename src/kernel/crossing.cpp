@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The error bounds of times and coordinates, and their exact values where the bounds do not suffice.
 #include <cellwalk/internal/kernel/crossing.h>
+#include <cellwalk/internal/kernel/next_double.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ namespace {
 using detail::largest_difference;
 using detail::least_difference;
 using detail::Twofold_normal;
-
-double double_below(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
-double double_above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
 /// Times below this are left to exact arithmetic, since their low parts might underflow.
 constexpr double least_time = 0x1p-400;
@@ -48,7 +46,7 @@ constexpr double least_certainty = 1024;
 /// The greatest double that is not above a number, if its error allows one only.
 std::optional<double> certain_floor(const Bounded_twofold& x) {
   if (x.value.low > x.error) return x.value.high;
-  if (x.value.low < -x.error) return double_below(x.value.high);
+  if (x.value.low < -x.error) return detail::next_below(x.value.high);
   return {};
 }
 
@@ -160,9 +158,9 @@ class Place {
       return {crossing_->plane[0][k], crossing_->plane[0][k]};
     if (bounded_)
       if (const auto x = coordinate_at(p_[k], target_[k], *bounded_))
-        if (const auto below = certain_floor(*x)) return {*below, double_above(*below)};
+        if (const auto below = certain_floor(*x)) return {*below, detail::next_above(*below)};
     const Rounded below = exact_floor(k);
-    return {below.value, below.is_exact ? below.value : double_above(below.value)};
+    return {below.value, below.is_exact ? below.value : detail::next_above(below.value)};
   }
   Rounded exact_floor(std::size_t k) const {
     if (!fraction_) fraction_ = time_ ? to_fraction(*time_) : fraction_of(*crossing_);

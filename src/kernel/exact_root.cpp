@@ -4,6 +4,7 @@
 // greatest double below it starts.
 #include <cellwalk/internal/kernel/exact_root.h>
 #include <cellwalk/internal/kernel/greatest_double.h>
+#include <cellwalk/internal/kernel/next_double.h>
 
 #include <algorithm>
 #include <cmath>
@@ -122,7 +123,6 @@ std::strong_ordering operator<=>(const Exact_root& x, double y) {
 
 Rounded rounded_down(const Exact_root& root) {
   if (const auto fraction = root.as_fraction()) return rounded_down(*fraction);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto& [a, b, c] = root.polynomial_;
   const bool is_negative = root < 0.0;
   const Exact_root opposite({a, Ring(-b), c}, -root.side_);
@@ -132,7 +132,7 @@ Rounded rounded_down(const Exact_root& root) {
                               [&size](double x) { return size >= x; });
   const bool is_exact = size == below;
   if (!is_negative) return {below, is_exact};
-  return {is_exact ? -below : std::nextafter(-below, -infinity), is_exact};
+  return {is_exact ? -below : detail::next_below(-below), is_exact};
 }
 
 }  // namespace cellwalk

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The rounding of fractions downwards and to nearest, and their conversion to rationals.
 #include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/next_double.h>
 
 #include <cmath>
 #include <limits>
@@ -44,11 +45,11 @@ Rounded positive_rounded_down(const Fraction& x) {
   double value = near(x);
   int above = compare(x, value);
   while (above < 0) {
-    value = std::nextafter(value, -infinity);
+    value = detail::next_below(value);
     above = compare(x, value);
   }
   while (above > 0) {
-    const double next = std::nextafter(value, infinity);
+    const double next = detail::next_above(value);
     above = compare(x, next);
     if (above < 0) return {value, false};
     value = next;
@@ -66,14 +67,13 @@ Rounded rounded_down(const Fraction& fraction) {
   if (fraction.sign() == 0) return {0, true};
   if (fraction.sign() > 0) return positive_rounded_down(fraction);
   const Rounded opposite = positive_rounded_down(Fraction(-fraction.numerator(), fraction.denominator()));
-  return {opposite.is_exact ? -opposite.value : std::nextafter(-opposite.value, -infinity),
-          opposite.is_exact};
+  return {opposite.is_exact ? -opposite.value : detail::next_below(-opposite.value), opposite.is_exact};
 }
 
 double rounded_to_nearest(const Fraction& fraction) {
   const Rounded below = rounded_down(fraction);
   if (below.is_exact) return below.value;
-  const double above = std::nextafter(below.value, infinity);
+  const double above = detail::next_above(below.value);
   const Ring twice_middle = Ring(below.value) + Ring(above);
   const Ring difference = Ring(2) * fraction.numerator() - twice_middle * fraction.denominator();
   return CGAL::sign(difference) == CGAL::POSITIVE ? above : below.value;

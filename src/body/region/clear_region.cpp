@@ -31,8 +31,8 @@ void Clear_region<D>::move_inwards(double r) {
   Point<D> low, high, sizes;
   for (std::size_t k = 0; k < D; ++k) {
     const int axis = static_cast<int>(k);
-    low[k] = std::nextafter(box_.low(axis) + r, infinity);
-    high[k] = std::nextafter(box_.high(axis) - r, -infinity);
+    low[k] = next_above(box_.low(axis) + r);
+    high[k] = next_below(box_.high(axis) - r);
     sizes[k] = std::max(std::abs(box_.low(axis)), std::abs(box_.high(axis)));
   }
   const std::vector<Wall_plane<D>> planes = std::exchange(planes_, {});

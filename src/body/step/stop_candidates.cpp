@@ -2,6 +2,7 @@
 // Roundings of the point of contact, then points off the wall, then points back along the motion.
 #include <cellwalk/internal/body/stop_candidates.h>
 #include <cellwalk/internal/kernel/crossing.h>
+#include <cellwalk/internal/kernel/next_double.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ template <int D>
 double ulp(const Point<D>& p) {
   double m = 0;
   for (const double x : p) m = std::max(m, std::abs(x));
-  return std::nextafter(m, infinity) - m;
+  return next_above(m) - m;
 }
 
 template <int D>

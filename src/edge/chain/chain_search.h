@@ -5,6 +5,7 @@
 #define CELLWALK_EDGE_CHAIN_CHAIN_SEARCH_H
 
 #include <cellwalk/edge/chain.h>
+#include <cellwalk/internal/kernel/next_double.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/star.h>
 
@@ -36,8 +37,8 @@ class Chain_search {
       : snapshot_(snapshot), segment_(segment), q_(q), rule_(rule), counts_(counts) {
     const Point<D> p = segment.at(0).rounded();  // less than an ulp off
     for (int k = 0; k < D; ++k) {
-      low_[k] = std::min(std::nextafter(p[k], -std::numeric_limits<double>::infinity()), q.position[k]);
-      high_[k] = std::max(std::nextafter(p[k], std::numeric_limits<double>::infinity()), q.position[k]);
+      low_[k] = std::min(next_below(p[k]), q.position[k]);
+      high_[k] = std::max(next_above(p[k]), q.position[k]);
     }
   }
 

@@ -3,10 +3,10 @@
 #ifndef CELLWALK_INTERNAL_KERNEL_BOX_H
 #define CELLWALK_INTERNAL_KERNEL_BOX_H
 
+#include <cellwalk/internal/kernel/next_double.h>
 #include <cellwalk/kernel/point.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -51,10 +51,9 @@ struct Box {
 template <int D>
 Box<D> enlarged(Box<D> box, double distance) {
   if (distance == 0) return box;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < D; ++k) {
-    box.low[k] = std::nextafter(box.low[k] - distance, -infinity);
-    box.high[k] = std::nextafter(box.high[k] + distance, infinity);
+    box.low[k] = next_below(box.low[k] - distance);
+    box.high[k] = next_above(box.high[k] + distance);
   }
   return box;
 }
