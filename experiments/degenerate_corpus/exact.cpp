@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "exact.h"
 
+#include <boost/multiprecision/cpp_int.hpp>
+
 namespace cellwalk::corpus {
 namespace {
 
@@ -86,6 +88,9 @@ bool meet(std::span<const Vec> hull, std::span<const Vec> feature) {
 
 std::string text(const Rational& x) { return x.str(); }
 
-double rounded(const Rational& x) { return x.convert_to<double>(); }
+// GMP would round towards 0.
+double rounded(const Rational& x) {
+  return boost::multiprecision::cpp_rational(x.str()).convert_to<double>();
+}
 
 }  // namespace cellwalk::corpus

@@ -5,7 +5,7 @@
 
 #include <cellwalk/kernel/point.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <array>
 #include <span>
@@ -14,7 +14,8 @@
 
 namespace cellwalk::corpus {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 using Vec = std::array<Rational, 3>;
 
 template <int D>
@@ -45,8 +46,7 @@ std::string text(const Rational& x);
 /// An exact fraction of the oracles.
 template <class Fraction>
 Rational to_rational(const Fraction& x) {
-  return {boost::multiprecision::cpp_int(x.numerator.str()),
-          boost::multiprecision::cpp_int(x.denominator.str())};
+  return Rational(x.numerator.str()) / Rational(x.denominator.str());
 }
 
 /// The nearest double.

@@ -13,8 +13,7 @@
 namespace cellwalk::test {
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
-using Rational = boost::multiprecision::cpp_rational;
+using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 using Vec = std::array<Integer, 3>;
 
 Vec minus(const Vec& a, const Vec& b) {

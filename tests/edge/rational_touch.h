@@ -6,7 +6,7 @@
 
 #include <cellwalk/kernel/point.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <array>
 #include <optional>
@@ -14,12 +14,15 @@
 
 namespace cellwalk::test {
 
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+
 /// How a closed set that moves meets a closed obstacle.
 struct Rational_touch {
   bool at_start = false;  ///< before it moves
   /// The infimum of the times at which a point that was not in the set at the start meets the obstacle. None:
   /// only points that were may meet it.
-  std::optional<boost::multiprecision::cpp_rational> later;
+  std::optional<Rational> later;
 
   bool any() const { return at_start || later; }
 };

@@ -36,7 +36,7 @@ void expect_contact(const Snapshot<3>& snapshot, const std::optional<Contact<3>>
   EXPECT_TRUE(contact->facet == membrane || contact->facet == snapshot.opposite(membrane));
   std::ostringstream time;
   time << to_rational(contact->exact_time());
-  EXPECT_EQ(boost::multiprecision::cpp_rational(time.str()), *expected.later);
+  EXPECT_EQ(test::Rational(time.str()), *expected.later);
 }
 
 TEST(CcdStatic, VertexAndFace) {

@@ -10,8 +10,6 @@
 namespace cellwalk::test {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
-
 /// In the plane z = 0.
 const std::vector<Point<3>> triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 const std::vector<Point<3>> segment{{0, 0, 0}, {4, 0, 0}};
