@@ -139,6 +139,20 @@ std::vector<std::vector<float>> contents(const std::vector<detail::Facet_boxes<2
   return result;
 }
 
+std::vector<std::vector<float>> contents(const std::vector<detail::Wall_lanes<2>>& walls) {
+  std::vector<std::vector<float>> result;
+  for (const auto& four : walls)
+    for (int lane = 0; lane < 4; ++lane) {
+      std::vector<float> wall{static_cast<float>(four.boxes.facets[static_cast<std::size_t>(lane)])};
+      for (const auto& lanes : {four.boxes.low, four.boxes.high, four.planes.normal})
+        for (std::size_t k = 0; k < 2; ++k) wall.push_back(lanes[k][lane]);
+      wall.push_back(four.planes.offset[lane]);
+      result.push_back(wall);
+    }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 TEST(CellPatcher, ClustersOfCellsFollow) {
   Simplex_grid_options<2> options;
   options.cells = {20, 20};

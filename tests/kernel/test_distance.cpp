@@ -18,8 +18,6 @@
 namespace cellwalk {
 namespace {
 
-using detail::Feature;
-using detail::Feature_pair;
 using test::Fraction;
 using test::Hull_pair;
 using test::Placement;
@@ -60,22 +58,6 @@ std::string text_of(const Hull_pair<D>& pair, double r) {
 double next_above(double x) { return std::nextafter(x, most); }
 double next_below(double x) { return std::nextafter(x, 0.); }
 
-/// A feature with any corners, which may coincide.
-Feature any_feature(std::size_t corners, std::size_t size, Random& random) {
-  Feature feature;
-  feature.size = static_cast<std::uint8_t>(size);
-  for (std::size_t k = 0; k < size; ++k)
-    feature.corners[k] = static_cast<std::uint16_t>(random.below(corners));
-  return feature;
-}
-
-/// Features of dimension D - 1 at most in all.
-template <int D>
-Feature_pair any_features(const Hull_pair<D>& pair, Random& random) {
-  const std::size_t of_a = 1 + random.below(D), of_b = 1 + random.below(D + 1 - of_a);
-  return {any_feature(pair.a.size(), of_a, random), any_feature(pair.b.size(), of_b, random)};
-}
-
 /// Radii at which errors would show: the distance itself, its neighbours, and others.
 std::vector<double> radii_of(const Fraction& square, double unit, Random& random) {
   if (square == 0) return {std::max(least, random.chance(0.3) ? 0 : unit * random.real(0.01, 2)), unit};
@@ -105,7 +87,7 @@ void expect_decisions(const Hull_pair<D>& pair, Placement placement, Random& ran
   const Fraction square = test::shortest_vector<D>(test::to_hull<D>(pair.a), test::to_hull<D>(pair.b)).square;
   ++seen.pairs;
   seen.meeting += square == 0;
-  Feature_pair last;  // as the tests before have left it
+  Vector<D> last{};  // as the tests before have left it
   for (const double r : radii_of(square, pair.unit, random)) {
     const bool expected = test::root_is_at_least(square, r);
     const auto k = static_cast<std::size_t>(placement);
@@ -116,8 +98,9 @@ void expect_decisions(const Hull_pair<D>& pair, Placement placement, Random& ran
       ++seen.at_r;
       ++seen.at_r_in[k];
     }
-    Feature_pair none, wrong = any_features<D>(pair, random);
-    for (Feature_pair* hint : {&none, &last, &wrong}) {
+    Vector<D> none{}, wrong;
+    for (double& x : wrong) x = pair.unit * random.real(-1, 1);
+    for (Vector<D>* hint : {&none, &last, &wrong}) {
       const bool is_apart = detail::is_apart<D>(pair.a, pair.b, r, *hint, counts);
       ASSERT_EQ(is_apart, expected) << "hint "
                                     << (hint == &none   ? "none"
@@ -168,9 +151,9 @@ void compare_pairs(int pairs_each) {
       if (round % 4 == 0 && placement < Placement::huge) expect_nearest_points<D>(pair);
       if (testing::Test::HasFatalFailure()) return;
     }
-  std::cout << D << "D: " << seen << "\nboxes " << counts.boxes << ", planes " << counts.planes
-            << ", features " << counts.features << ", near " << counts.near << ", ring pair "
-            << counts.ring_pair << ", ring list " << counts.ring_list << '\n';
+  std::cout << D << "D: " << seen << "\nboxes " << counts.boxes << ", planes " << counts.planes << ", gjk "
+            << counts.gjk << ", near " << counts.near << ", ring pair " << counts.ring_pair << ", ring list "
+            << counts.ring_list << '\n';
   EXPECT_GT(seen.at_r, seen.decisions / 40);
   EXPECT_GT(seen.apart, seen.decisions / 4);
   EXPECT_LT(seen.apart, 3 * seen.decisions / 4);
@@ -182,7 +165,7 @@ void compare_pairs(int pairs_each) {
   for (const Placement k : {Placement::lattice, Placement::turned, Placement::huge, Placement::tiny})
     EXPECT_GT(seen.at_r_in[static_cast<std::size_t>(k)], pairs_each / 10);
   // All stages had to decide.
-  for (const std::uint64_t n : {counts.boxes, counts.planes, counts.features, counts.near, counts.ring_pair})
+  for (const std::uint64_t n : {counts.boxes, counts.planes, counts.gjk, counts.near, counts.ring_pair})
     EXPECT_GT(n, static_cast<std::uint64_t>(pairs_each) / 10);
   EXPECT_GT(counts.ring_list, 0u);
 }
@@ -236,7 +219,7 @@ TEST(Distance, SquaresThatAreNoDoubles) {
     for (auto* points : {&pair.a, &pair.b})
       for (Point<3>& y : *points) y = std::ldexp(1, exponent) * y;
     const double scaled = std::ldexp(r, exponent);
-    Feature_pair near;
+    Vector<3> near{};
     Distance_counts counts;
     EXPECT_TRUE(detail::is_apart<3>(pair.a, pair.b, scaled, near, counts)) << exponent;
     EXPECT_FALSE(detail::is_apart<3>(pair.a, pair.b, next_above(scaled), near, counts)) << exponent;
@@ -249,7 +232,7 @@ TEST(Distance, SquaresThatAreNoDoubles) {
 TEST(Distance, EdgesThatPierceAreNotApart) {
   const std::vector<Point<3>> edge{{0, 0, -100}, {0, 0, 100}},
       facet{{-90, -80, 0}, {90, -80, 0}, {0, 100, 0}};
-  Feature_pair near;
+  Vector<3> near{};
   Distance_counts counts;
   for (const double r : {least, 1e-300, 1., 50., 1e300}) {
     EXPECT_FALSE(detail::is_apart<3>(edge, facet, r, near, counts)) << r;
@@ -262,7 +245,7 @@ TEST(Distance, EdgesThatPierceAreNotApart) {
 TEST(Distance, ScalesMayDiffer) {
   const std::vector<Point<3>> a{{1e308, 1e308, 5e-324}, {-1e308, 1e308, 5e-324}, {0, -1e308, 5e-324}},
       b{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  Feature_pair near;
+  Vector<3> near{};
   Distance_counts counts;
   EXPECT_TRUE(detail::is_apart<3>(a, b, least, near, counts));
   EXPECT_FALSE(detail::is_apart<3>(a, b, 2 * least, near, counts));

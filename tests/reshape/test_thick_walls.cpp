@@ -29,9 +29,9 @@ using Points = std::vector<Point<3>>;
 const std::array<Point<3>, 4> turning_wall{{{4, 8, 0}, {4, 8, 8}, {0, 0, 0}, {8, 0, 0}}};
 
 bool is_free(const Points& feature, double r) {
-  detail::Feature_pair near;
+  Vector<3> direction{};
   Distance_counts counts;
-  return detail::is_apart<3>(turning_wall, feature, r, near, counts);
+  return detail::is_apart<3>(turning_wall, feature, r, direction, counts);
 }
 
 TEST(ThickWalls, AWallComesWithinTheRadius) {

@@ -84,8 +84,8 @@ struct Cgal {
   cgal::Walls walls;
 };
 
-/// The distance of segments from triangles: by the library's exact predicate, which tries the features first
-/// that were nearest when the triangle was last tested, or in doubles. Planes exclude most triangles.
+/// The distance of segments from triangles: by the library's exact predicate, which tries the direction first
+/// that parted them when the triangle was last tested, or in doubles. Planes exclude most triangles.
 struct Cgal_distances {
   Cgal_distances(const Wall_mesh& mesh, double r, bool exact) : walls(mesh), radius(r), is_exact(exact) {}
 
@@ -97,7 +97,7 @@ struct Cgal_distances {
     std::array<Point<3>, 3> corners;
     Vector<3> normal;
     Float_box box;
-    mutable detail::Feature_pair nearest{};
+    mutable Vector<3> direction{};
   };
   using Place = Point<3>;
 
@@ -107,7 +107,7 @@ struct Cgal_distances {
     const std::array segment{a, b};
     if (is_exact) {
       Distance_counts uncounted;
-      return !detail::is_apart<3>(segment, c.corners, radius, c.nearest, uncounted);
+      return !detail::is_apart<3>(segment, c.corners, radius, c.direction, uncounted);
     }
     const double at_a = dot(c.normal, a - c.corners[0]), at_b = dot(c.normal, b - c.corners[0]);
     if (std::min(at_a, at_b) > radius || std::max(at_a, at_b) < -radius) return false;

@@ -65,7 +65,7 @@ bool find_met_walls(const Snapshot<D>& snapshot, Cell first, const Frame_box<D>&
       effort.is_exhausted = true;
       return false;
     }
-    return std::ranges::all_of(cluster.walls, look_at);
+    return std::ranges::all_of(cluster.walls, look_at, &Wall_lanes<D>::boxes);
   });
 }
 

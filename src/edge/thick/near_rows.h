@@ -35,20 +35,21 @@ Polynomial<N> squared(const Polynomial<N>& p) {
   return {N(p.linear * p.linear), N(N(2) * p.linear * p.constant), N(p.constant * p.constant)};
 }
 
+/// A vector that stands still.
+template <int D, class N>
+using Still_vector = std::array<N, static_cast<std::size_t>(D)>;
+
 /// A vector that changes evenly with time.
 template <int D, class N>
 struct Moving_vector {
-  std::array<N, static_cast<std::size_t>(D)> at_0, rate{};
+  Still_vector<D, N> at_0, rate;
 };
 
-/// x - y for points that stand still.
+/// x - y.
 template <int D, class N>
-Moving_vector<D, N> between(const Point<D>& x, const Point<D>& y) {
-  Moving_vector<D, N> result;
-  for (std::size_t k = 0; k < D; ++k) {
-    result.at_0[k] = N(N(x[k]) - N(y[k]));
-    result.rate[k] = N(0);
-  }
+Still_vector<D, N> between(const Point<D>& x, const Point<D>& y) {
+  Still_vector<D, N> result;
+  for (std::size_t k = 0; k < D; ++k) result[k] = N(N(x[k]) - N(y[k]));
   return result;
 }
 
@@ -64,18 +65,22 @@ Polynomial<N> scalar_product(const Moving_vector<D, N>& x, const Moving_vector<D
   return {product_of(x.rate, y.rate), N(product_of(x.at_0, y.rate) + product_of(x.rate, y.at_0)),
           product_of(x.at_0, y.at_0)};
 }
+template <int D, class N>
+Polynomial<N> scalar_product(const Moving_vector<D, N>& x, const Still_vector<D, N>& y) {
+  return {N(0), product_of(x.rate, y), product_of(x.at_0, y)};
+}
 
-/// \pre one of them stands still
 template <class N>
-Moving_vector<3, N> vector_product(const Moving_vector<3, N>& x, const Moving_vector<3, N>& y) {
-  Moving_vector<3, N> result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    result.at_0[k] = N(x.at_0[i] * y.at_0[j] - x.at_0[j] * y.at_0[i]);
-    result.rate[k] = N(N(x.at_0[i] * y.rate[j] - x.at_0[j] * y.rate[i]) +
-                       N(x.rate[i] * y.at_0[j] - x.rate[j] * y.at_0[i]));
-  }
-  return result;
+Still_vector<3, N> vector_product(const Still_vector<3, N>& x, const Still_vector<3, N>& y) {
+  return {N(x[1] * y[2] - x[2] * y[1]), N(x[2] * y[0] - x[0] * y[2]), N(x[0] * y[1] - x[1] * y[0])};
+}
+template <class N>
+Moving_vector<3, N> vector_product(const Moving_vector<3, N>& x, const Still_vector<3, N>& y) {
+  return {vector_product(x.at_0, y), vector_product(x.rate, y)};
+}
+template <class N>
+Moving_vector<3, N> vector_product(const Still_vector<3, N>& x, const Moving_vector<3, N>& y) {
+  return {vector_product(x, y.at_0), vector_product(x, y.rate)};
 }
 
 /// A feature of the motion, of whose corners 0 is the one that moves, 1 is q and 2 the third one, and one of
@@ -124,51 +129,51 @@ class Near_equations {
     return vertex_and_side(c, end, conditions);
   }
 
-  using Vector_of_time = Moving_vector<D, N>;
+  using Moving = Moving_vector<D, N>;
+  using Still = Still_vector<D, N>;
 
   /// p(s) - x.
-  Vector_of_time from_p(const Point<D>& x) const {
-    Vector_of_time result = between<D, N>(motion_.p, x);
-    for (std::size_t k = 0; k < D; ++k) result.rate[k] = N(N(motion_.target[k]) - N(motion_.p[k]));
-    return result;
+  Moving from_p(const Point<D>& x) const {
+    return {between<D, N>(motion_.p, x), between<D, N>(motion_.target, motion_.p)};
   }
   const Point<D>& still(const Near_row& row) const {
     return row.of_motion.corners[1] == 1 ? *motion_.q : *motion_.third;
   }
 
   Near_equation<N> vertex_and_vertex(const Point<D>& c) const {
-    const Vector_of_time u = from_p(c);
+    const Moving u = from_p(c);
     return {scalar_product<D>(u, u) - Polynomial<N>{N(0), N(0), square_of_radius_}};
   }
 
   /// The foot of the vertex is in the edge, which has a length.
   Near_equation<N> edge_and_vertex(const Point<D>& q, const Point<D>& c, bool conditions) const {
-    const Vector_of_time d = from_p(q), g = between<D, N>(c, q);
-    const Polynomial<N> dd = scalar_product<D>(d, d), gd = scalar_product<D>(g, d);
-    const Polynomial<N> p = scalar_product<D>(g, g).constant * dd - squared(gd) - square_of_radius_ * dd;
+    const Moving d = from_p(q);
+    const Still g = between<D, N>(c, q);
+    const Polynomial<N> dd = scalar_product<D>(d, d), gd = scalar_product<D>(d, g);
+    const Polynomial<N> p = N(product_of(g, g) - square_of_radius_) * dd - squared(gd);
     if (!conditions) return {p};
     return {p, {gd, dd - gd}, {dd}};
   }
 
   /// The foot of the vertex is on the inner side of all edges of the face, seen along its normal.
   Near_equation<N> face_and_vertex(const Point<D>& c, bool conditions) const {
-    const Vector_of_time to_p = from_p(*motion_.q), ridge = between<D, N>(*motion_.third, *motion_.q);
-    const Vector_of_time n = vector_product(ridge, to_p), g = between<D, N>(c, *motion_.q);
-    const auto along_n = [&](const Vector_of_time& x, const Vector_of_time& y) {
-      return scalar_product<D>(vector_product(x, y), n);
-    };
+    const Moving to_p = from_p(*motion_.q);
+    const Still ridge = between<D, N>(*motion_.third, *motion_.q), g = between<D, N>(c, *motion_.q);
+    const Moving n = vector_product(ridge, to_p);
     const Polynomial<N> nn = scalar_product<D>(n, n);
-    const Polynomial<N> p = squared(scalar_product<D>(g, n)) - square_of_radius_ * nn;
+    const Polynomial<N> p = squared(scalar_product<D>(n, g)) - square_of_radius_ * nn;
     if (!conditions) return {p};
     return {p,
-            {along_n(ridge, g), along_n(from_p(*motion_.third), between<D, N>(c, *motion_.third)),
-             along_n(g, to_p)},
+            {scalar_product<D>(n, vector_product(ridge, g)),
+             scalar_product<D>(vector_product(from_p(*motion_.third), between<D, N>(c, *motion_.third)), n),
+             scalar_product<D>(vector_product(g, to_p), n)},
             {nn}};
   }
 
   Near_equation<N> vertex_and_side(const Point<D>& c, const Point<D>& end, bool conditions) const {
-    const Vector_of_time e = between<D, N>(end, c), u = from_p(c);
-    const Polynomial<N> ee = scalar_product<D>(e, e), ue = scalar_product<D>(u, e);
+    const Still e = between<D, N>(end, c);
+    const Moving u = from_p(c);
+    const Polynomial<N> ee{N(0), N(0), product_of(e, e)}, ue = scalar_product<D>(u, e);
     const Polynomial<N> p = ee.constant * scalar_product<D>(u, u) - squared(ue) - square_of_radius_ * ee;
     if (!conditions) return {p};
     return {p, {ue, ee - ue}};
@@ -177,26 +182,28 @@ class Near_equations {
   /// The nearest points of both lines, by Cramer's rule, are in the edges, which are not parallel.
   Near_equation<N> edge_and_side(const Point<D>& q, const Point<D>& c, const Point<D>& end,
                                  bool conditions) const {
-    const Vector_of_time d = from_p(q), e = between<D, N>(end, c), g = between<D, N>(c, q);
-    const Vector_of_time n = vector_product(d, e);
+    const Moving d = from_p(q);
+    const Still e = between<D, N>(end, c), g = between<D, N>(c, q);
+    const Moving n = vector_product(d, e);
     const Polynomial<N> nn = scalar_product<D>(n, n);
-    const Polynomial<N> p = squared(scalar_product<D>(g, n)) - square_of_radius_ * nn;
+    const Polynomial<N> p = squared(scalar_product<D>(n, g)) - square_of_radius_ * nn;
     if (!conditions) return {p};
-    const Polynomial<N> of_edge = scalar_product<D>(vector_product(g, e), n),
+    const Polynomial<N> of_edge = scalar_product<D>(n, vector_product(g, e)),
                         of_side = scalar_product<D>(vector_product(g, d), n);
     return {p, {of_edge, nn - of_edge, of_side, nn - of_side}, {nn}};
   }
 
   /// The foot of the vertex is on the inner side of all edges.
   Near_equation<N> vertex_and_facet(bool conditions) const {
-    const Vector_of_time n =
-        vector_product(between<D, N>(wall_[1], wall_[0]), between<D, N>(wall_[2], wall_[0]));
-    Near_equation<N> result{squared(scalar_product<D>(from_p(wall_[0]), n)) -
-                            square_of_radius_ * scalar_product<D>(n, n)};
+    const Still n = vector_product(between<D, N>(wall_[1], wall_[0]), between<D, N>(wall_[2], wall_[0]));
+    const Polynomial<N> height = scalar_product<D>(from_p(wall_[0]), n);
+    Polynomial<N> p = squared(height);
+    p.constant = N(p.constant - square_of_radius_ * product_of(n, n));
+    Near_equation<N> result{p};
     for (std::size_t k = 0; conditions && k < wall_.size(); ++k) {
       const Point<D>&from = wall_[k], &to = wall_[k + 1 == wall_.size() ? 0 : k + 1];
       result.at_least_0.push_back(
-          scalar_product<D>(vector_product(between<D, N>(to, from), from_p(from)), n));
+          scalar_product<D>(from_p(from), vector_product(n, between<D, N>(to, from))));
     }
     return result;
   }

@@ -4,6 +4,7 @@
 #include "near_time.h"
 
 #include <cellwalk/internal/kernel/direction_at_distance.h>
+#include <cellwalk/internal/kernel/next_double.h>
 #include <cellwalk/internal/kernel/predicates.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 
@@ -163,13 +164,10 @@ class Near_time_search {
     const std::array<Point<D>, 2> side{*motion_.q, *motion_.third};
     const auto n = direction_at_distance<D>(side, wall_, motion_.radius);
     if (!n) return false;
-    Moving_vector<D, Ring> normal, from_side = between<D, Ring>(motion_.p, side[n->corner]);
-    normal.at_0 = n->direction;
-    for (std::size_t k = 0; k < D; ++k) {
-      normal.rate[k] = Ring(0);
-      from_side.rate[k] = Ring(Ring(motion_.target[k]) - Ring(motion_.p[k]));
-    }
-    auto root = Exact_root::of(to_quadratic(scalar_product<D>(from_side, normal)), Exact_root::Which::lower);
+    const Moving_vector<D, Ring> from_side{between<D, Ring>(motion_.p, side[n->corner]),
+                                           between<D, Ring>(motion_.target, motion_.p)};
+    auto root =
+        Exact_root::of(to_quadratic(scalar_product<D>(from_side, n->direction)), Exact_root::Which::lower);
     if (!root) refuse_uncertified();
     auto [of_side, of_wall] = nearest_in_doubles<D>(side, wall_).features;
     for (std::size_t i = 0; i < of_side.size; ++i) ++of_side.corners[i];
@@ -234,20 +232,19 @@ Near_time find_near_time(const Thick_motion<D>& motion, std::span<const Point<D>
 /// The end of what is swept is off by rounding, and the distance by no more.
 template <int D>
 bool is_later(const Thick_motion<D>& motion, std::span<const Point<D>> wall, double time) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double most = 0x1p1000;  // of coordinates whose differences are finite
-  boost::container::static_vector<Point<D>, 4> swept{
-      motion.p, point_on<D>(motion.p, motion.target, std::nextafter(time, infinity))};
+  boost::container::static_vector<Point<D>, 4> swept{motion.p,
+                                                     point_on<D>(motion.p, motion.target, next_above(time))};
   for (const auto& corner : {motion.q, motion.third})
     if (corner) swept.push_back(*corner);
   double largest = 0;
   for (std::size_t k = 0; k < D; ++k)
     largest = std::max({largest, std::abs(motion.p[k]), std::abs(motion.target[k])});
-  const double r = std::nextafter(motion.radius + 0x1p-48 * largest, infinity);
-  Feature_pair near;
+  const double r = next_above(motion.radius + 0x1p-48 * largest);
+  Vector<D> direction{};
   Distance_counts uncounted;
   return largest < most && std::isfinite(r) &&
-         is_apart<D>({swept.data(), swept.size()}, wall, r, near, uncounted);
+         is_apart<D>({swept.data(), swept.size()}, wall, r, direction, uncounted);
 }
 
 template bool is_later<2>(const Thick_motion<2>&, std::span<const Point<2>>, double);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "hull_in_frame.h"
+
 namespace cellwalk::detail {
 namespace {
 
@@ -43,12 +45,6 @@ class Points_of_motions {
   }
   std::span<const Point<D>> points() const { return {points_.data(), points_.size()}; }
   double radius() const { return radius_; }
-  /// Of all that is nearer to them than the largest radius.
-  Box<D> box() const {
-    Box<D> box;
-    for (const Point<D>& x : points_) box.extend(x);
-    return enlarged(box, radius_);
-  }
 
  private:
   boost::container::small_vector<Point<D>, 8> points_;
@@ -82,29 +78,29 @@ void Near_wall_list<D>::make(const Snapshot<D>& snapshot, Cell start, const Box<
   box_ = part;
   box_.extend(box_of(motions));
   box_ = enlarged(box_, reach_);
-  boxes_.clear();
+  lanes_.clear();
+  blocks_.clear();
   walls_.clear();
   corners_.clear();
   cost_ = tests_ = 0;
   const Frame_box<D> reach(frame_, enlarged(box_, radius));
   flood_clusters(snapshot, start, reach, [&](const Cell_cluster<D>& cluster, std::size_t) {
     cost_ += cluster.walls.size() + cluster.passages.size();
-    for (const Facet_boxes<D>& all : cluster.walls)
-      for_each_met(reach, all, [&](std::size_t lane) { add(all, lane); });
+    for (const Wall_lanes<D>& walls : cluster.walls)
+      for_each_met(reach, walls.boxes, [&](std::size_t lane) { add(walls, lane); });
     return true;
   });
-  cost_ += cost_of_listing * boxes_.size();
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    if (i % 4 == 0) blocks_.push_back(Facet_boxes<D>::none());
+    blocks_.back().enclose(i % 4, lanes_[i].boxes);
+  }
+  cost_ += cost_of_listing * lanes_.size();
 }
 
 template <int D>
-void Near_wall_list<D>::add(const Facet_boxes<D>& boxes, std::size_t lane) {
-  Facet_boxes<D>& block = next_block(boxes_, walls_.size());
-  const std::size_t free = walls_.size() % 4;
-  for (std::size_t k = 0; k < D; ++k) {
-    block.low[k][free] = boxes.low[k][lane];
-    block.high[k][free] = boxes.high[k][lane];
-  }
-  block.facets[free] = boxes.facets[lane];
+void Near_wall_list<D>::add(const Wall_lanes<D>& walls, std::size_t lane) {
+  if (walls_.size() % 4 == 0) lanes_.emplace_back();
+  lanes_.back().set(walls_.size() % 4, walls, lane);
   walls_.emplace_back();
 }
 
@@ -112,42 +108,57 @@ template <int D>
 bool Near_wall_list<D>::are_free(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions,
                                  Swept_part part) {
   const Points_of_motions<D> all(motions, part);
-  const Frame_box<D> near(frame_, all.box());
-  tests_ += boxes_.size();
-  for (std::size_t block = 0; block < boxes_.size(); ++block)
-    for (unsigned met = near.met(boxes_[block]); met != 0; met &= met - 1) {
-      Wall& wall = look_up(snapshot, 4 * block + static_cast<std::size_t>(std::countr_zero(met)));
-      if (wall.plane.parts(all.points(), all.radius())) continue;
-      for (const Thick_motion<D>& motion : motions)
-        if (!is_far(wall, motion, part)) return false;
-    }
-  return true;
+  return for_each_near(all.points(), all.radius(), [&](std::size_t i) {
+    Wall& wall = look_up(snapshot, i);
+    if (wall.known.parts(all.points(), all.radius())) return true;
+    return std::ranges::all_of(motions, [&](const auto& motion) { return is_far(wall, motion, part); });
+  });
 }
 
 template <int D>
 std::vector<Half_facet> Near_wall_list<D>::walls_near(const Snapshot<D>& snapshot,
                                                       const Thick_motion<D>& motion) {
   const Points_of_motions<D> all({&motion, 1}, Swept_part::all);
-  const Frame_box<D> near(frame_, all.box());
   std::vector<Half_facet> walls;
-  for (std::size_t block = 0; block < boxes_.size(); ++block)
-    for_each_met(near, boxes_[block], [&](std::size_t lane) {
-      if (!look_up(snapshot, 4 * block + lane).plane.parts(all.points(), all.radius()))
-        walls.push_back(Half_facet{boxes_[block].facets[lane]});
-    });
+  for_each_near(all.points(), all.radius(), [&](std::size_t i) {
+    if (!look_up(snapshot, i).known.parts(all.points(), all.radius()))
+      walls.push_back(Half_facet{lanes_[i / 4].boxes.facets[i % 4]});
+    return true;
+  });
   return walls;
+}
+
+/// Calls use(position) for the walls whose boxes and planes may be nearer than r to the hull of some points,
+/// until it returns false. Returns false if it did.
+template <int D>
+template <class Use>
+bool Near_wall_list<D>::for_each_near(std::span<const Point<D>> corners, double r, Use use) {
+  Box<D> of_corners;
+  for (const Point<D>& x : corners) of_corners.extend(x);
+  const Frame_box<D> box(frame_, enlarged(of_corners, r));
+  const Hull_in_frame<D> hull(frame_, corners, r);
+  tests_ += blocks_.size();
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    for (unsigned blocks = box.met(blocks_[i]); blocks != 0; blocks &= blocks - 1) {
+      const std::size_t block = 4 * i + static_cast<std::size_t>(std::countr_zero(blocks));
+      ++tests_;
+      unsigned walls = box.met(lanes_[block].boxes);
+      if (walls != 0) walls &= hull.lanes_near(lanes_[block].planes);
+      for (; walls != 0; walls &= walls - 1)
+        if (!use(4 * block + static_cast<std::size_t>(std::countr_zero(walls)))) return false;
+    }
+  return true;
 }
 
 /// Takes the corners of a wall.
 template <int D>
 void Near_wall_list<D>::take_corners(const Snapshot<D>& snapshot, std::size_t i) {
   Wall& wall = walls_[i];
-  const Half_facet half{boxes_[i / 4].facets[i % 4]};
+  const Half_facet half{lanes_[i / 4].boxes.facets[i % 4]};
   const Cell_view<D> view = snapshot.view(snapshot.cell_of(half));
   wall.first = static_cast<std::uint32_t>(corners_.size());
   for (const std::uint16_t v : view.loop(snapshot.facet_of(half))) corners_.push_back(view.point(v));
   wall.last = static_cast<std::uint32_t>(corners_.size());
-  wall.plane = Parting_plane<D>({corners_.data() + wall.first, corners_.data() + wall.last});
 }
 
 /// What is apart from all that a motion sweeps is so from its segments.
@@ -155,10 +166,12 @@ template <int D>
 bool Near_wall_list<D>::is_far(Wall& wall, const Thick_motion<D>& motion, Swept_part part) {
   const bool are_segments = part == Swept_part::segments;
   const Swept_hull<D> hull = swept_hull(motion, are_segments ? Swept_part::all : part);
-  Distance_counts uncounted;
-  if (is_apart<D>({hull.data(), hull.size()}, {corners_.data() + wall.first, corners_.data() + wall.last},
-                  motion.radius, wall.near, uncounted))
+  Distance_counts counts;
+  Vector<D> direction = wall.known.direction();
+  if (is_apart<D>({hull.data(), hull.size()}, corners_of(wall), motion.radius, direction, counts)) {
+    if (counts.gjk > 0) wall.known = Parting_direction<D>(corners_of(wall), direction);
     return true;
+  }
   return are_segments && is_far(wall, motion, Swept_part::way) && is_far(wall, motion, Swept_part::end);
 }
 

@@ -138,8 +138,9 @@ class Thick_sweep {
   }
 
   bool is_far(const auto& hull, const Points<D>& corners) {
-    Feature_pair near;
-    return is_apart<D>({hull.data(), hull.size()}, in<D>(corners), motion_.radius, near, distance_counts_);
+    Vector<D> direction{};
+    return is_apart<D>({hull.data(), hull.size()}, in<D>(corners), motion_.radius, direction,
+                       distance_counts_);
   }
 
   /// True if a wall is near something that has to keep the distance.

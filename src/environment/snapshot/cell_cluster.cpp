@@ -23,28 +23,15 @@ double mapped(const Plane_frame<D>& frame, const Point<D>& x, std::size_t k) {
 inline float below(double x) { return static_cast<float>(x - mapping_error); }
 inline float above(double x) { return static_cast<float>(x + mapping_error); }
 
-/// The boxes of facets, four by four.
 template <int D>
-class Packed_boxes {
- public:
-  void add(const Plane_frame<D>& frame, const Box<D>& box, std::uint32_t facet) {
-    Facet_boxes<D>& last = next_block(boxes_, count_);
-    const std::size_t lane = count_++ % 4;
-    for (std::size_t k = 0; k < D; ++k) {
-      last.low[k][lane] = below(mapped<D>(frame, box.low, k));
-      last.high[k][lane] = above(mapped<D>(frame, box.high, k));
-    }
-    last.facets[lane] = facet;
+void set_box(Facet_boxes<D>& boxes, std::size_t lane, const Plane_frame<D>& frame, const Box<D>& box,
+             std::uint32_t facet) {
+  for (std::size_t k = 0; k < D; ++k) {
+    boxes.low[k][lane] = below(mapped<D>(frame, box.low, k));
+    boxes.high[k][lane] = above(mapped<D>(frame, box.high, k));
   }
-  std::vector<Facet_boxes<D>> boxes() && {
-    boxes_.shrink_to_fit();
-    return std::move(boxes_);
-  }
-
- private:
-  std::vector<Facet_boxes<D>> boxes_;
-  std::size_t count_ = 0;
-};
+  boxes.facets[lane] = facet;
+}
 
 }  // namespace
 
@@ -63,7 +50,8 @@ std::unique_ptr<const Cell_cluster<D>> make_cluster(const Snapshot<D>& snapshot,
   const std::size_t slots = snapshot.half_facet_slots() / 4;
   const std::uint32_t begin = number * size;
   const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(slots, begin + size));
-  Packed_boxes<D> walls, passages;
+  Cell_cluster<D> cluster;
+  std::size_t walls = 0;
   std::vector<std::pair<std::uint32_t, Box<D>>> neighbours;
   for (std::uint32_t b = begin; b < end; ++b) {
     const Cell cell{b};
@@ -77,7 +65,9 @@ std::unique_ptr<const Cell_cluster<D>> make_cluster(const Snapshot<D>& snapshot,
       Box<D> box;
       for (const std::uint16_t v : view.loop(i)) box.extend(view.point(v));
       if (is_wall) {
-        walls.add(snapshot.frame(), box, to_index(f));
+        if (walls % 4 == 0) cluster.walls.emplace_back();
+        set_box(cluster.walls.back().boxes, walls % 4, snapshot.frame(), box, to_index(f));
+        cluster.walls.back().set_plane(walls++ % 4, snapshot.blocks(cell)[i / 4], i % 4);
         continue;
       }
       const std::uint32_t other = to_index(next) / size;
@@ -88,9 +78,11 @@ std::unique_ptr<const Cell_cluster<D>> make_cluster(const Snapshot<D>& snapshot,
         known->second.extend(box);
     }
   }
-  for (const auto& [other, box] : neighbours) passages.add(snapshot.frame(), box, other);
-  return std::make_unique<const Cell_cluster<D>>(
-      Cell_cluster<D>{std::move(walls).boxes(), std::move(passages).boxes()});
+  cluster.walls.shrink_to_fit();
+  cluster.passages.assign((neighbours.size() + 3) / 4, Facet_boxes<D>::none());
+  for (std::size_t n = 0; n < neighbours.size(); ++n)
+    set_box(cluster.passages[n / 4], n % 4, snapshot.frame(), neighbours[n].second, neighbours[n].first);
+  return std::make_unique<const Cell_cluster<D>>(std::move(cluster));
 }
 
 template struct Frame_box<2>;

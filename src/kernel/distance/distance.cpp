@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The stages of is_apart(): boxes, a direction that is known, nearest features in doubles, ring numbers.
+// The stages of is_apart(): boxes, a direction that is known, the search for one in doubles, ring numbers.
 #include <cellwalk/internal/kernel/direction_at_distance.h>
 #include <cellwalk/internal/kernel/greatest_double.h>
 #include <cellwalk/internal/kernel/predicates.h>
@@ -8,33 +8,29 @@
 #include <limits>
 
 #include "filter.h"
+#include "gjk.h"
 #include "ring_hulls.h"
 
 namespace cellwalk::detail {
 namespace {
 
-/// Whose direction is the normal of the wall.
+/// The normal of the plane of a wall (2D: of its line), of any length; 0 if it has too few corners.
 template <int D>
-Feature_pair plane_of(std::size_t corners_of_b) {
-  if (corners_of_b < D) return {};
-  return {vertex_feature(0), D == 2 ? edge_feature(0, 1) : facet_feature(0, 1, 2)};
+Vector<D> plane_normal(std::span<const Point<D>> wall) {
+  if (wall.size() < D) return {};
+  return direction_of<double, D>({wall, wall},
+                                 {vertex_feature(0), D == 2 ? edge_feature(0, 1) : facet_feature(0, 1, 2)});
 }
 
 /// \param nearest of the hulls in doubles; only the time depends on it
 template <int D>
-bool decide(const Ring_hulls<D>& hulls, const Feature_pair& nearest, Feature_pair& near,
-            Distance_counts& counts) {
+bool decide(const Ring_hulls<D>& hulls, const Feature_pair& nearest, Distance_counts& counts) {
   ++counts.ring_pair;
-  if (hulls.parts(nearest)) {
-    near = nearest;
-    return true;
-  }
+  if (hulls.parts(nearest)) return true;
   if (hulls.are_near(nearest)) return false;
   --counts.ring_pair;
   ++counts.ring_list;
-  const auto parting = hulls.find_parting();
-  if (parting) near = *parting;
-  return parting.has_value();
+  return hulls.are_parted();
 }
 
 template <int D>
@@ -55,60 +51,59 @@ typename Ring_hulls<D>::Corner ring_point(const Point<D>& from, const Point<D>& 
 }  // namespace
 
 template <int D>
-Parting_plane<D>::Parting_plane(std::span<const Point<D>> corners) : origin_(corners[0]) {
+Parting_direction<D>::Parting_direction(std::span<const Point<D>> wall, const Vector<D>& direction)
+    : origin_(wall[0]) {
   double extent = 0;
-  for (const Point<D>& x : corners)
+  for (const Point<D>& x : wall)
     for (std::size_t k = 0; k < D; ++k) extent = std::max(extent, std::abs(x[k] - origin_[k]));
-  const Feature_pair plane = plane_of<D>(corners.size());
-  if (!(plane.b.size != 0 && extent > 0x1p-400)) return;
-  const auto direction = scaled_direction<D>(direction_of<double, D>({corners, corners}, plane));
-  if (!direction) return;
-  direction_ = *direction;
+  const std::optional<Vector<D>> scaled = scaled_direction<D>(direction);
+  if (!scaled || !(extent > 0x1p-400)) return;
+  direction_ = *scaled;
   extent_ = extent;
-  for (const Point<D>& x : corners) {
+  for (const Point<D>& x : wall) {
     const double at = dot(direction_, x - origin_);
     low_ = std::min(low_, at), high_ = std::max(high_, at);
   }
 }
 
-template class Parting_plane<2>;
-template class Parting_plane<3>;
+template class Parting_direction<2>;
+template class Parting_direction<3>;
 
 template <int D>
-bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Feature_pair& near,
+bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Vector<D>& direction,
               Distance_counts& counts) {
   const Filter<D> filter(a, b, r);
   if (filter.boxes_part()) {
     ++counts.boxes;
     return true;
   }
-  const bool is_in_range = filter.is_in_range();
-  if (is_in_range) {
-    for (const Feature_pair& first : {near, plane_of<D>(b.size())})
-      if (is_pair<D>(first, a.size(), b.size()) && filter.parts(first)) {
-        ++counts.planes;
-        near = first;
-        return true;
-      }
-  }
-  const Relative_nearest<D> nearest = nearest_features<D>(a, b);
-  if (is_in_range) {
-    if (filter.are_near(nearest.distance)) {
-      ++counts.near;
-      return false;
-    }
-    if (filter.parts(nearest.features)) {
-      ++counts.features;
-      near = nearest.features;
+  if (filter.is_in_range()) {
+    if (filter.parts(direction)) {
+      ++counts.planes;
       return true;
     }
+    if (const Vector<D> normal = plane_normal<D>(b); filter.parts(normal)) {
+      ++counts.planes;
+      direction = normal;
+      return true;
+    }
+    switch (gjk<D>(filter, a, b, direction)) {
+      case Gjk_answer::near:
+        ++counts.near;
+        return false;
+      case Gjk_answer::apart:
+        ++counts.gjk;
+        return true;
+      case Gjk_answer::open:
+        break;
+    }
   }
-  return decide(Ring_hulls<D>(ring_corners<D>(a), b, r), nearest.features, near, counts);
+  return decide(Ring_hulls<D>(ring_corners<D>(a), b, r), nearest_features<D>(a, b).features, counts);
 }
 
-template bool is_apart<2>(std::span<const Point<2>>, std::span<const Point<2>>, double, Feature_pair&,
+template bool is_apart<2>(std::span<const Point<2>>, std::span<const Point<2>>, double, Vector<2>&,
                           Distance_counts&);
-template bool is_apart<3>(std::span<const Point<3>>, std::span<const Point<3>>, double, Feature_pair&,
+template bool is_apart<3>(std::span<const Point<3>>, std::span<const Point<3>>, double, Vector<3>&,
                           Distance_counts&);
 
 template <int D>
@@ -118,10 +113,9 @@ bool is_apart_until(const Point<D>& from, const Point<D>& target, std::span<cons
   rounded.insert(rounded.end(), still.begin(), still.end());
   typename Ring_hulls<D>::Corners corners = ring_corners<D>({rounded.data(), rounded.size()});
   corners[1] = ring_point<D>(from, target, time);
-  Feature_pair near;
   Distance_counts counts;
   return decide(Ring_hulls<D>(std::move(corners), b, r),
-                nearest_features<D>({rounded.data(), rounded.size()}, b).features, near, counts);
+                nearest_features<D>({rounded.data(), rounded.size()}, b).features, counts);
 }
 
 template bool is_apart_until<2>(const Point<2>&, const Point<2>&, std::span<const Point<2>>, double,
@@ -158,9 +152,9 @@ template Vector<3> common_normal<3>(const Point<3>&, const Point<3>&, double, st
 
 template <int D>
 double distance_rounded_down(std::span<const Point<D>> a, std::span<const Point<D>> b) {
-  Feature_pair near;
+  Vector<D> direction{};
   Distance_counts counts;
-  const auto holds = [&](double r) { return is_apart<D>(a, b, r, near, counts); };
+  const auto holds = [&](double r) { return is_apart<D>(a, b, r, direction, counts); };
   if (!holds(std::numeric_limits<double>::denorm_min())) return 0;  // hulls that meet
   return greatest_double(nearest_features<D>(a, b).distance, std::numeric_limits<double>::max(), holds);
 }

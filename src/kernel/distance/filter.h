@@ -12,10 +12,14 @@
 // another 3.5uM: in all 21uM < 2^-48 M. For 2^-400 < M < 2^400 and 2^-900 < n.n < 2^900 nothing overflows,
 // and what underflows is covered by the rest.
 //
-// Two points are nearer than r if they are corners or combinations of corners with weights as rounded, not
-// negative, of sum 1: each coordinate, relative to o, is off by at most 9uM (corner uM, weighted edges 4uM,
-// their products 2uM, two sums 2uM), the difference of two by 20uM, its length by 35uM, with the rounding of
-// the length by less than 2^-46 M = 128uM.
+// A point of a simplex of differences of corners is such a difference, too, and so a proof that the hulls are
+// nearer than r if its length is less. Weights are as rounded, not negative, of sum 1 with that of the first
+// corner. Each coordinate of a difference w is off by 4uM (two corners, and their difference, of size 2M); of
+// a difference of two of them, by another 4uM, times the weights, whose sum is at most 1; the products and
+// the sums add less than 14uM. So the point is off by 26uM in each coordinate, by 46uM in all, and with the
+// rounding of its length by less than 2^-46 M = 128uM.
+//
+// The nearest points of features are combinations of corners likewise, and off by less.
 #ifndef CELLWALK_KERNEL_DISTANCE_FILTER_H
 #define CELLWALK_KERNEL_DISTANCE_FILTER_H
 
@@ -65,6 +69,7 @@ class Filter {
     return false;
   }
 
+  double radius() const { return r_; }
   /// False if the bounds of this class do not hold.
   bool is_in_range() const { return extent_ > 0x1p-400 && extent_ < 0x1p400; }
 
@@ -90,10 +95,10 @@ class Filter {
 
   /// True proves that the hulls are more than r apart along a direction.
   /// \pre is_in_range()
-  bool parts(const Feature_pair& pair) const { return gap(pair) > r_; }
+  bool parts(const Vector<D>& n) const { return gap(n) > r_; }
 
   /// True proves that two points are nearer than r.
-  /// \pre is_in_range(); the points are from nearest_in_doubles()
+  /// \pre is_in_range(); the points are as above
   bool are_near(double distance) const { return distance + 0x1p-46 * extent_ < r_; }
 
   /// True if a lower bound of the distance is near that of two points: it is good to some roundings.
@@ -116,7 +121,7 @@ struct Relative_nearest {
   double distance = 0;
 };
 
-/// The nearest points of all pairs of features in doubles. Their weights are not negative and have the sum 1.
+/// The nearest points of all pairs of features in doubles. The weights are not negative and have the sum 1.
 template <int D>
 Relative_nearest<D> nearest_features(std::span<const Point<D>> a, std::span<const Point<D>> b);
 

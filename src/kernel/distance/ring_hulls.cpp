@@ -117,12 +117,9 @@ void Ring_hulls<D>::for_each_pair(Use use) const {
 }
 
 template <int D>
-std::optional<Feature_pair> Ring_hulls<D>::find_parting() const {
-  std::optional<Feature_pair> found;
-  for_each_pair([&](const Feature_pair& pair) {
-    if (parts(pair)) found = pair;
-    return !found;
-  });
+bool Ring_hulls<D>::are_parted() const {
+  bool found = false;
+  for_each_pair([&](const Feature_pair& pair) { return !(found = parts(pair)); });
   return found;
 }
 

@@ -40,8 +40,8 @@ class Ring_hulls {
   bool parts(const Feature_pair& pair) const { return compare(pair) >= 0; }
   /// True if the feet of a pair lie in its features, and are nearer than r.
   bool are_near(const Feature_pair& pair) const;
-  /// A pair by whose direction the hulls are at least r apart; none if they are nearer.
-  std::optional<Feature_pair> find_parting() const;
+  /// True if the hulls are at least r apart by the direction of some pair: the exact answer.
+  bool are_parted() const;
   /// The direction from a to b along which the hulls are exactly r apart; none if they are farther apart, or
   /// nearer.
   std::optional<Corner> find_direction_at_distance() const;

@@ -113,9 +113,9 @@ std::optional<Wall_hit<D>> first_near_hit(const Moving_star<D>& star, Resident_g
   Distance_counts uncounted;
   for (const Thick_member<D>* member : groups.thick().near(star.box()))
     for (const Moving_wall<D>& wall : star.walls()) {
-      Feature_pair near;
+      Vector<D> direction{};
       const auto& swept = wall.swept.corners();
-      if (is_apart<D>(swept, member->hull(), member->radius, near, uncounted)) continue;
+      if (is_apart<D>(swept, member->hull(), member->radius, direction, uncounted)) continue;
       if (any) return Wall_hit<D>{};
       auto meeting = first_meeting<D>(swept, member->hull(), member->radius,
                                       first ? std::optional(first->meeting.time) : std::nullopt);

@@ -108,8 +108,8 @@ std::vector<const Thick_member<D>*> Thick_members<D>::nearer_to(std::span<const 
   std::vector<const Thick_member<D>*> result = near(box);
   Distance_counts uncounted;
   std::erase_if(result, [&](const Thick_member<D>* member) {
-    Feature_pair features;
-    return is_apart<D>(member->hull(), hull, member->radius, features, uncounted);
+    Vector<D> direction{};
+    return is_apart<D>(member->hull(), hull, member->radius, direction, uncounted);
   });
   return result;
 }

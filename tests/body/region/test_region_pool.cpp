@@ -163,6 +163,14 @@ void expect_around_facets(const Snapshot<3>& snapshot, const detail::Facet_boxes
   }
 }
 
+void expect_plane_of(const Snapshot<3>& snapshot, Half_facet f, const Plane_block<3>& planes,
+                     std::size_t lane) {
+  const std::size_t facet = snapshot.facet_of(f);
+  const Plane_block<3>& of_cell = snapshot.blocks(snapshot.cell_of(f))[facet / 4];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(planes.normal[k][lane], of_cell.normal[k][facet % 4]);
+  EXPECT_EQ(planes.offset[lane], of_cell.offset[facet % 4]);
+}
+
 /// Clusters miss none of the walls that a flood of cells meets.
 void expect_walls_of_all_cells(const Snapshot<3>& snapshot, std::size_t least_clusters) {
   const detail::Cell_clusters<3>& clusters = snapshot.clusters();
@@ -184,14 +192,21 @@ void expect_walls_of_all_cells(const Snapshot<3>& snapshot, std::size_t least_cl
   }
   for (const std::uint32_t number : numbers) {
     const detail::Cell_cluster<3>& cluster = clusters.cluster(snapshot, number);
-    const auto each = [](const auto& all, const auto& use) {
-      for (const auto& boxes : all)
-        for (std::size_t lane = 0; lane < 4; ++lane)
-          if (boxes.low[0][lane] <= boxes.high[0][lane]) use(boxes.facets[lane]);
+    const auto each = [](const detail::Facet_boxes<3>& boxes, const auto& use) {
+      for (std::size_t lane = 0; lane < 4; ++lane)
+        if (boxes.low[0][lane] <= boxes.high[0][lane]) use(boxes.facets[lane], lane);
     };
-    each(cluster.walls, [&](std::uint32_t f) { EXPECT_TRUE(walls.insert(f).second); });
-    for (const auto& boxes : cluster.walls) expect_around_facets(snapshot, boxes);
-    each(cluster.passages, [&](std::uint32_t there) { EXPECT_TRUE(passages.emplace(number, there).second); });
+    for (const detail::Wall_lanes<3>& four : cluster.walls) {
+      expect_around_facets(snapshot, four.boxes);
+      each(four.boxes, [&](std::uint32_t f, std::size_t lane) {
+        EXPECT_TRUE(walls.insert(f).second);
+        expect_plane_of(snapshot, Half_facet{f}, four.planes, lane);
+      });
+    }
+    for (const detail::Facet_boxes<3>& four : cluster.passages)
+      each(four, [&](std::uint32_t there, std::size_t) {
+        EXPECT_TRUE(passages.emplace(number, there).second);
+      });
   }
   EXPECT_GE(numbers.size(), least_clusters);
   EXPECT_EQ(walls, expected);

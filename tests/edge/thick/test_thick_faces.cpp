@@ -188,9 +188,9 @@ std::vector<Face_before_wall> free_faces() {
 }
 
 bool is_apart(const Face_before_wall& c, double radius) {
-  detail::Feature_pair near;
+  Vector<3> direction{};
   Distance_counts uncounted;
-  return detail::is_apart<3>(c.swept, c.wall, radius, near, uncounted);
+  return detail::is_apart<3>(c.swept, c.wall, radius, direction, uncounted);
 }
 
 TEST(ThickFaces, AreBlockedAtTheirTimes) {

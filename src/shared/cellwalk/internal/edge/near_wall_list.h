@@ -51,24 +51,29 @@ class Near_wall_list {
  private:
   struct Wall {
     std::uint32_t first = 0, last = 0;  ///< its corners
-    Parting_plane<D> plane;
-    Feature_pair near;  ///< that was nearest when it was last tested
+    Parting_direction<D> known;         ///< that parted it when it was last tested
   };
 
-  void add(const Facet_boxes<D>& boxes, std::size_t lane);
+  void add(const Wall_lanes<D>& walls, std::size_t lane);
   Wall& look_up(const Snapshot<D>& snapshot, std::size_t wall) {
     if (walls_[wall].last == 0) take_corners(snapshot, wall);
     return walls_[wall];
   }
   void take_corners(const Snapshot<D>& snapshot, std::size_t wall);
+  std::span<const Point<D>> corners_of(const Wall& wall) const {
+    return {corners_.data() + wall.first, corners_.data() + wall.last};
+  }
+  template <class Use>
+  bool for_each_near(std::span<const Point<D>> corners, double r, Use use);
   bool is_far(Wall& wall, const Thick_motion<D>& motion, Swept_part part);
 
   Box<D> box_;  ///< of what it holds for; empty: of nothing
   std::uint64_t epoch_ = 0;
   double reach_ = 0;
-  Plane_frame<D> frame_;  ///< of the boxes: that of the snapshot may change, and the walls not
-  std::vector<Facet_boxes<D>> boxes_;
-  std::vector<Wall> walls_;  ///< of the lanes of the boxes; known once they were needed
+  Plane_frame<D> frame_;  ///< of boxes and planes: that of the snapshot may change, and the walls not
+  std::vector<Wall_lanes<D>> lanes_;    ///< of the walls, four by four
+  std::vector<Facet_boxes<D>> blocks_;  ///< with a box in each lane round four walls
+  std::vector<Wall> walls_;             ///< known once they were needed
   std::vector<Point<D>> corners_;
   std::uint64_t cost_ = 0;   ///< of the flood, in blocks of four boxes
   std::uint64_t tests_ = 0;  ///< of blocks since

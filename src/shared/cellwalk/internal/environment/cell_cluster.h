@@ -40,18 +40,42 @@ struct Facet_boxes {
     boxes.facets.fill(0);
     return boxes;
   }
+  /// Makes a lane a box round those of all lanes of others.
+  void enclose(std::size_t lane, const Facet_boxes& others) {
+    for (std::size_t k = 0; k < D; ++k) {
+      const Float4 &l = others.low[k], &h = others.high[k];
+      low[k][lane] = std::min({l[0], l[1], l[2], l[3]});
+      high[k][lane] = std::max({h[0], h[1], h[2], h[3]});
+    }
+  }
 };
 
-/// The block for the next facet of a list that has so many.
+/// Four walls.
 template <int D>
-Facet_boxes<D>& next_block(std::vector<Facet_boxes<D>>& blocks, std::size_t facets) {
-  if (facets % 4 == 0) blocks.push_back(Facet_boxes<D>::none());
-  return blocks.back();
-}
+struct Wall_lanes {
+  Facet_boxes<D> boxes = Facet_boxes<D>::none();
+  Plane_block<D> planes{};
 
+  /// Takes a wall of others.
+  void set(std::size_t lane, const Wall_lanes& others, std::size_t from) {
+    for (std::size_t k = 0; k < D; ++k) {
+      boxes.low[k][lane] = others.boxes.low[k][from];
+      boxes.high[k][lane] = others.boxes.high[k][from];
+    }
+    boxes.facets[lane] = others.boxes.facets[from];
+    set_plane(lane, others.planes, from);
+  }
+  void set_plane(std::size_t lane, const Plane_block<D>& others, std::size_t from) {
+    for (std::size_t k = 0; k < D; ++k) planes.normal[k][lane] = others.normal[k][from];
+    planes.offset[lane] = others.offset[from];
+  }
+};
+
+/// The walls of some cells, and what leads out of them.
 template <int D>
 struct Cell_cluster {
-  std::vector<Facet_boxes<D>> walls, passages;
+  std::vector<Wall_lanes<D>> walls;
+  std::vector<Facet_boxes<D>> passages;
 };
 
 /// A box in the frame, rounded outwards, each bound in all lanes.

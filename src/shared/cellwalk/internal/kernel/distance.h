@@ -21,13 +21,13 @@ namespace cellwalk {
 /// The decisions of is_apart(), by the first stage that was certain.
 struct Distance_counts {
   std::uint64_t boxes = 0;      ///< by the boxes of both hulls
-  std::uint64_t planes = 0;     ///< by the direction of the pair of features that was given, or the plane
-  std::uint64_t features = 0;   ///< by the direction of the nearest features in doubles
-  std::uint64_t near = 0;       ///< by two points nearer than r, in doubles
+  std::uint64_t planes = 0;     ///< by the direction that was given, or the plane of the wall
+  std::uint64_t gjk = 0;        ///< by a direction that the method of Gilbert, Johnson and Keerthi finds
+  std::uint64_t near = 0;       ///< by two points nearer than r that it finds
   std::uint64_t ring_pair = 0;  ///< by the nearest features, in ring numbers
   std::uint64_t ring_list = 0;  ///< by all directions, in ring numbers
 
-  static constexpr std::array<std::string_view, 6> names{"boxes", "planes",    "features",
+  static constexpr std::array<std::string_view, 6> names{"boxes", "planes",    "gjk",
                                                          "near",  "ring_pair", "ring_list"};
 };
 static_assert(names_all_before<Distance_counts>(sizeof(Distance_counts)));
@@ -55,15 +55,16 @@ struct Feature_pair {
   Feature a, b;
 };
 
-/// The plane of a wall (2D: its line), made once for many tests in doubles of whether it parts the wall from
+/// A wall along a direction, measured once for many tests in doubles of whether the direction parts it from
 /// others. The bounds are those of is_apart(), see filter.h of the kernel.
 template <int D>
-class Parting_plane {
+class Parting_direction {
  public:
   /// That parts nothing.
-  Parting_plane() = default;
-  /// \param corners as `b` of is_apart(), at least one
-  explicit Parting_plane(std::span<const Point<D>> corners);
+  Parting_direction() = default;
+  /// \param wall as `b` of is_apart(), at least one corner
+  /// \param direction of any length; one of 0 parts nothing
+  Parting_direction(std::span<const Point<D>> wall, const Vector<D>& direction);
   /// True proves that the hull of some points is more than r away from the wall.
   bool parts(std::span<const Point<D>> points, double r) const {
     double low = std::numeric_limits<double>::infinity(), high = -low, extent = extent_;
@@ -75,6 +76,7 @@ class Parting_plane {
     }
     return std::max(low - high_, low_ - high) - 0x1p-48 * extent > r && extent < 0x1p400;
   }
+  const Vector<D>& direction() const { return direction_; }
 
  private:
   Point<D> origin_{};
@@ -89,14 +91,14 @@ class Parting_plane {
 /// \param b a point, the two ends of a segment, or (3D) the vertices of a convex polygon in order, of which
 ///        three need not be collinear first
 /// \param r finite, greater than 0
-/// \param near the pair of features that was nearest when this pair was last tested, or none; its direction
-///        is tried first. Takes the pair by whose direction the hulls are apart, for the next test
+/// \param direction along which the hulls may be apart, or 0: it is tried first. Takes one of any length
+///        along which they are, if doubles find one
 /// \param counts raised by the test
 /// \pre all coordinates are finite
-/// Cost: 30 to 40 ns where boxes or a known direction decide, 0.3 to 0.7 us near r, 3 to 6 us within some ulp
+/// Cost: 30 to 40 ns where boxes or a known direction decide, 0.1 to 0.3 us near r, 3 to 6 us within some ulp
 /// of r, where ring numbers decide; more where the nearest features are others than those that doubles found.
 template <int D>
-bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Feature_pair& near,
+bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Vector<D>& direction,
               Distance_counts& counts);
 
 /// The same for what an edge or face has swept at a time: the hull of the points `still` and of the way from
