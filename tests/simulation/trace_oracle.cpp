@@ -60,7 +60,7 @@ bool Trace_walls::meet_segment(const Point<3>& a, const Point<3>& b) const {
 
 std::optional<double> Trace_walls::meet_triangle(const Point<3>& a, const Point<3>& b,
                                                  const Point<3>& q) const {
-  std::optional<boost::multiprecision::cpp_rational> first;
+  std::optional<Rational> first;
   for_each_near({a, b, q}, [&](const Square& s) {
     const std::array<Point<3>, 3> halves[]{{s[0], s[1], s[2]}, {s[0], s[2], s[3]}};
     for (const auto& half : halves) {
