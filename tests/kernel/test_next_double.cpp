@@ -16,14 +16,8 @@ namespace {
 
 TEST(NextDouble, IsThatOfTheStandardLibrary) {
   using Limits = std::numeric_limits<double>;
-  std::vector<double> numbers{0,
-                              1,
-                              Limits::denorm_min(),
-                              Limits::min(),
-                              Limits::max(),
-                              Limits::infinity(),
-                              1 - 0x1p-53,
-                              2 - 0x1p-52};
+  std::vector<double> numbers{
+      0, 1, Limits::denorm_min(), Limits::min(), Limits::max(), Limits::infinity(), 1 - 0x1p-53, 2 - 0x1p-52};
   Random random(5);
   for (int i = 0; i < 10'000; ++i) {
     const std::uint64_t bits = static_cast<std::uint64_t>(random.below(std::size_t{1} << 32)) << 32 |

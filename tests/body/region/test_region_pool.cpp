@@ -204,9 +204,8 @@ void expect_walls_of_all_cells(const Snapshot<3>& snapshot, std::size_t least_cl
       });
     }
     for (const detail::Facet_boxes<3>& four : cluster.passages)
-      each(four, [&](std::uint32_t there, std::size_t) {
-        EXPECT_TRUE(passages.emplace(number, there).second);
-      });
+      each(four,
+           [&](std::uint32_t there, std::size_t) { EXPECT_TRUE(passages.emplace(number, there).second); });
   }
   EXPECT_GE(numbers.size(), least_clusters);
   EXPECT_EQ(walls, expected);
