@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The cheapest way from cell to cell, divided into short pieces, whose ends then move to the middle.
+#include <cellwalk/internal/edge/thick_sweep.h>
 #include <cellwalk/internal/simulation/centre_line.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/walk.h>
@@ -52,7 +53,8 @@ class Line_finder {
     clearance_.assign(snapshot.cell_slots(), 0);
   }
 
-  Centre_line<D> find() {
+  /// \param radius of what follows the line
+  Centre_line<D> find(double radius) {
     const std::vector<Cell> way =
         detail::cheapest_way(snapshot_, costs(from_), costs(to_), [&](Cell a, Cell b) {
           const double distance = cellwalk::length(centroid(snapshot_, b) - centroid(snapshot_, a));
@@ -65,6 +67,7 @@ class Line_finder {
     for (int i = 0; i < most_smoothings && smooth() > still * piece_; ++i) {
     }
     if (!is_free()) line_ = divided;
+    if (radius > 0) cut_ends(radius);
     Centre_line<D> result;
     for (const Particle<D>& p : line_) {
       result.points.push_back(p.position);
@@ -195,6 +198,25 @@ class Line_finder {
     });
   }
 
+  /// Leaves points out before facets of groups that are nearer to a wall than a radius: these facets are
+  /// walls for what is thick. Points that were given stay.
+  void cut_ends(double radius) {
+    double widest = 0;
+    const auto has_room = [&](const Particle<D>& x) {
+      const double clearance = detail::clearance<D>(snapshot_, x.cell, x.position, x.position, 2 * radius);
+      widest = std::max(widest, clearance);
+      return clearance >= radius;
+    };
+    const auto first = std::ranges::find_if(line_, has_room);
+    if (first == line_.end())
+      throw Error(Error_code::outside,
+                  fmt::format("radius: no point of the centre line from {} to {} is {} away from all walls; "
+                              "the widest place has {:.4g}: give a smaller radius, or a path",
+                              from_.name, to_.name, radius, widest));
+    if (!from_.open.empty()) line_.erase(line_.begin(), first);
+    while (!to_.open.empty() && !has_room(line_.back())) line_.pop_back();
+  }
+
   static constexpr double least_clearance = 1e-300;
 
   const Snapshot<D>& snapshot_;
@@ -217,9 +239,9 @@ double Centre_line<D>::length() const {
 
 template <int D>
 Centre_line<D> find_centre_line(const Snapshot<D>& snapshot, const Groups<D>& groups,
-                                const Catheter_ends<D>& ends) {
+                                const Catheter_ends<D>& ends, double radius) {
   const Line_end<D> from(snapshot, groups, ends.from, "from"), to(snapshot, groups, ends.to, "to");
-  Centre_line<D> line = Line_finder<D>(snapshot, from, to).find();
+  Centre_line<D> line = Line_finder<D>(snapshot, from, to).find(radius);
   if (line.points.empty())
     throw Error(Error_code::outside,
                 fmt::format("to: no way leads from {} to {}: they lie in different components of free space, "
@@ -244,7 +266,7 @@ template <int D>
 void lay_along_centre_line(const Snapshot<D>& snapshot, const Groups<D>& groups, Catheter<D>& catheter) {
   Centre_line<D> line;
   try {
-    line = find_centre_line(snapshot, groups, *catheter.ends);
+    line = find_centre_line(snapshot, groups, *catheter.ends, catheter.radius);
   } catch (const Error& error) {
     throw Error(error.code(), std::string("catheter.") + error.what());
   }
@@ -260,8 +282,10 @@ void lay_along_centre_line(const Snapshot<D>& snapshot, const Groups<D>& groups,
 
 template struct Centre_line<2>;
 template struct Centre_line<3>;
-template Centre_line<2> find_centre_line(const Snapshot<2>&, const Groups<2>&, const Catheter_ends<2>&);
-template Centre_line<3> find_centre_line(const Snapshot<3>&, const Groups<3>&, const Catheter_ends<3>&);
+template Centre_line<2> find_centre_line(const Snapshot<2>&, const Groups<2>&, const Catheter_ends<2>&,
+                                         double);
+template Centre_line<3> find_centre_line(const Snapshot<3>&, const Groups<3>&, const Catheter_ends<3>&,
+                                         double);
 template void lay_along_centre_line(const Snapshot<2>&, const Groups<2>&, Catheter<2>&);
 template void lay_along_centre_line(const Snapshot<3>&, const Groups<3>&, Catheter<3>&);
 

@@ -90,6 +90,16 @@ TEST_F(CentreLineRun, ArrivesByTwoKeys) {
   EXPECT_TRUE(kept().front().starts_with("scenes/.cellwalk-cache/")) << kept().front();
 }
 
+TEST_F(CentreLineRun, ArrivesWithARadius) {
+  succeed({"run", "scenes/s.json", "-o", "thick", "--set", "catheter.radius=0.6"});
+  const json pushed = report("thick")["catheter"];
+  EXPECT_TRUE(pushed["arrived"]) << pushed;
+  // The base is as far from the group as the radius, and the tip cannot come nearer to the other.
+  EXPECT_GE(pushed["path"].front()[0], 0.6);
+  EXPECT_GE(pushed["tip"][0], 10);
+  EXPECT_LE(pushed["tip"][0], 11.4);
+}
+
 TEST_F(CentreLineRun, SaysHowFarItCame) {
   const std::string few = succeed({"run", "scenes/s.json", "-o", "few", "--steps", "15"});
   EXPECT_TRUE(contains(few, "; the steps were over: it needs about 33 more")) << few;

@@ -53,15 +53,31 @@ void expect_free_line(const Snapshot<D>& snapshot, const Centre_line<D>& line) {
 
 template <int D>
 std::string refused(const Snapshot<D>& snapshot, const Groups<D>& groups, const Catheter_ends<D>& ends,
-                    Error_code code) {
+                    Error_code code, double radius = 0) {
   try {
-    find_centre_line(snapshot, groups, ends);
+    find_centre_line(snapshot, groups, ends, radius);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << error.what();
     return error.what();
   }
   ADD_FAILURE() << "a line was found";
   return {};
+}
+
+TEST(CentreLine, EndsKeepARadiusFromTheirGroups) {
+  const auto snapshot = rooms<3>({12, 4, 4});
+  const Groups<3> groups{{"cap_1", side<3>(snapshot, {0, 0, 0}, {0, 4, 4})},
+                         {"cap_2", side<3>(snapshot, {12, 0, 0}, {12, 4, 4})}};
+  for (const double radius : {0.1, 1., 1.5}) {
+    const auto line = find_centre_line<3>(snapshot, groups, {"cap_1", "cap_2"}, radius);
+    expect_free_line(snapshot, line);
+    for (const auto& [x, y, z] : {line.points.front(), line.points.back()})
+      EXPECT_GE(std::min({x, 12 - x, y, 4 - y, z, 4 - z}), radius);
+    EXPECT_GT(line.length(), 12 - 2 * radius - 2.1) << "pieces are 1 long";
+  }
+  EXPECT_EQ(refused(snapshot, groups, {"cap_1", "cap_2"}, Error_code::outside, 2.5),
+            "radius: no point of the centre line from cap_1 to cap_2 is 2.5 away from all walls; the widest "
+            "place has 2: give a smaller radius, or a path");
 }
 
 TEST(CentreLine, KeepsToTheAxisOfAStraightDuct) {

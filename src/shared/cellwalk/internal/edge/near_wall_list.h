@@ -37,7 +37,7 @@ class Near_wall_list {
   void make(const Snapshot<D>& snapshot, Cell start, const Box<D>& part, double radius,
             std::span<const Thick_motion<D>> motions);
   /// True if motions at one corner are free: the exact answer.
-  /// \param part that has to keep the distance; all tested parts of one motion count as its test
+  /// \param part that has to keep the distance, the end only after the way; all tested parts are one test
   /// \pre holds(); where the motions start, they are at least at the distance of their radii from every wall
   /// Cost: a comparison of boxes for four walls at a time, is_apart() for those near.
   bool are_free(const Snapshot<D>& snapshot, std::span<const Thick_motion<D>> motions,
