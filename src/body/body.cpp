@@ -31,11 +31,9 @@ constexpr std::size_t most_reported_edges = 64;
   throw Error(Error_code::usage, "a vertex of this body has more than 64 edges: use Step_rule::reject");
 }
 
-template <int D>
-void check_rule(const Body_options& options, const detail::Body_state<D>& body) {
-  if (options.rule == Step_rule::reject_at_target && body.topology.max_degree() > most_reported_edges)
+void check_rule(const Body_options& options, const detail::Body_topology& topology) {
+  if (options.rule == Step_rule::reject_at_target && topology.max_degree() > most_reported_edges)
     refuse_rule();
-  if (!body.thick.are_none()) detail::check_thick_sweep(options.sweep);
 }
 
 [[noreturn, gnu::noinline]] void refuse_number(const char* what, std::size_t number, std::size_t count) {
@@ -69,6 +67,7 @@ template <int D>
 [[gnu::noinline]] void step_out_of_region(detail::Body_state<D>& body, std::span<const Point<D>> targets,
                                           const Body_options& options, Step_report<D>& report,
                                           Body_counts& counts) {
+  if (!body.thick.are_none()) detail::check_thick_sweep(options.sweep);
   check_targets<D>(targets);
   if (options.sweep.search) [[unlikely]]
     detail::check_search(*options.sweep.search);
@@ -217,7 +216,7 @@ template <int D>
 void Body<D>::step(std::span<const Point<D>> targets, const Body_options& options, Step_report<D>& report,
                    Body_counts& counts) {
   detail::Body_state<D>& body = *state_;
-  check_rule(options, body);
+  check_rule(options, body.topology);
   body.check_epoch();
   // Pointers, since sizes would have to be divided by the size of a point.
   if (body.positions.data() + targets.size() != std::to_address(body.positions.end())) [[unlikely]]

@@ -118,16 +118,8 @@ TEST_F(InTheMembraneRoom, ErrorsNameWhatIsWrong) {
     choose(options);
     return refusal([&] { body.step(body.positions(), options, report, counts); });
   };
-  const std::string no_stop = "touch stop: not for motions with a radius, which touch no wall";
-  EXPECT_EQ(refused([](Body_options& o) { o.sweep.touch = Touch::stop; }), no_stop);
-  body.step(body.positions(), {}, report, counts);
-  ASSERT_EQ(counts.in_region, 0u);
-  Body<3> in_the_open(room, rod({{2, 4, 4}, {2, 4.1, 4}}, {0.1}));
-  in_the_open.step(in_the_open.positions(), {}, report, counts);
-  ASSERT_GT(counts.in_region, 0u);
-  Body_options stop;
-  stop.sweep.touch = Touch::stop;
-  EXPECT_EQ(refusal([&] { in_the_open.step(in_the_open.positions(), stop, report, counts); }), no_stop);
+  EXPECT_EQ(refused([](Body_options& o) { o.sweep.touch = Touch::stop; }),
+            "touch stop: not for motions with a radius, which touch no wall");
 }
 
 TEST_F(InTheMembraneRoom, ClearancesAreBounds) {
