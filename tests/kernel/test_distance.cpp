@@ -241,6 +241,17 @@ TEST(Distance, EdgesThatPierceAreNotApart) {
   EXPECT_EQ(detail::distance_rounded_down<3>(edge, facet), 0);
 }
 
+// A judged motion of 437,760: an edge ends 3.7e-10 from a wall of nearly its direction, and begins 5.9e-10
+// from it. Products of lengths cancel there.
+TEST(Distance, NearestPointsOfEdgesThatAreNearlyParallel) {
+  const std::vector<Point<2>> edge{{0x1.970f09ceb24aep-5, 0x1.b1294725a232ep-4},
+                                   {0x1.acfda2f449e15p-6, 0x1.a4eb8fce0bc7fp-4}},
+      wall{{0x1.cc47cd828f398p-4, 0x1.d1cddab9df05ap-4}, {-0x1.a9c631a06ff95p-7, 0x1.9084b39166a07p-4}};
+  const detail::Nearest<2> nearest = detail::nearest_in_doubles<2>(edge, wall);
+  EXPECT_EQ(nearest.features.a, detail::vertex_feature(1));
+  EXPECT_NEAR(length(nearest.on_b - nearest.on_a), detail::distance_rounded_down<2>(edge, wall), 1e-16);
+}
+
 // Numbers of all magnitudes at once: no square of a radius is a double.
 TEST(Distance, ScalesMayDiffer) {
   const std::vector<Point<3>> a{{1e308, 1e308, 5e-324}, {-1e308, 1e308, 5e-324}, {0, -1e308, 5e-324}},

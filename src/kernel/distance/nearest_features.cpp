@@ -12,6 +12,15 @@ namespace {
 
 double clamped(double x) { return x > 0 ? std::min(x, 1.0) : 0.0; }  // 0 for a NaN
 
+/// The s at which the line w + s d is nearest to that of e; not a number if they are parallel.
+double nearest_weight(const Vector<3>& d, const Vector<3>& e, const Vector<3>& w) {
+  const Vector<3> n = cross(d, e);
+  return dot(cross(e, w), n) / dot(n, n);
+}
+double nearest_weight(const Vector<2>& d, const Vector<2>& e, const Vector<2>& w) {
+  return (e[0] * w[1] - e[1] * w[0]) / (d[0] * e[1] - d[1] * e[0]);
+}
+
 /// The search over pairs of features; points are relative to the first corner of b.
 template <int D>
 class Search {
@@ -66,8 +75,9 @@ class Search {
     const Point<D>&x = a_[of_a.corners[0]], &y = b_[of_b.corners[0]];
     const Vector<D> d = a_[of_a.corners[1]] - x, e = b_[of_b.corners[1]] - y, w = x - y;
     const double dd = dot(d, d), ee = dot(e, e), de = dot(d, e), dw = dot(d, w), ew = dot(e, w);
-    // The nearest point of the lines, then of the ends that bound it.
-    double s = clamped((de * ew - dw * ee) / (dd * ee - de * de));
+    // The nearest point of the lines, then of the ends that bound it. By vector products, since products of
+    // lengths would cancel where the lines are nearly parallel.
+    double s = clamped(nearest_weight(d, e, w));
     double t = (de * s + ew) / ee;
     if (!(t > 0)) {
       t = 0;
