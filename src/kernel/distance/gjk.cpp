@@ -11,8 +11,7 @@ namespace {
 
 /// A step leads to a point that is less near by this part at least, in proportion to the square.
 constexpr double least_progress = 0x1p-46;
-/// Most pairs take two to five.
-constexpr int most_steps = 12;
+constexpr int most_steps = 12;  // more are left to ring numbers
 
 /// Some corners of the simplex, and the point of their hull that is nearest to the origin.
 template <int D>

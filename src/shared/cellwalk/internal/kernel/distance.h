@@ -95,7 +95,7 @@ class Parting_direction {
 ///        along which they are, if doubles find one
 /// \param counts raised by the test
 /// \pre all coordinates are finite
-/// Cost: 30 to 40 ns where boxes or a known direction decide, 0.1 to 0.3 us near r, 3 to 6 us within some ulp
+/// Cost: 30 to 40 ns where boxes or a known direction decide, up to 0.7 us near r, 3 to 6 us within some ulp
 /// of r, where ring numbers decide; more where the nearest features are others than those that doubles found.
 template <int D>
 bool is_apart(std::span<const Point<D>> a, std::span<const Point<D>> b, double r, Vector<D>& direction,
