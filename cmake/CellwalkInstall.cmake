@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Install rules and the package that find_package(cellwalk COMPONENTS ...) reads.
-#   core     LGPL  kernel to reshape                    target cellwalk::core
+#   core     LGPL  kernel to reshape                    target cellwalk::core; walks on any map of CGAL: target cellwalk::lcc, headers only
 #   io       LGPL  readers and writers, pictures        targets cellwalk::io, cellwalk::drawing; its module for VTK is the component readers
 #   meshing  GPL   meshing of surfaces and polygons     target cellwalk::meshing
 #   loading  LGPL  environments from files (GPL where it is built with meshing)  target cellwalk::loading
@@ -52,6 +52,15 @@ set(installed_internals
   kernel/next_double.h
   kernel/predicates.h
   kernel/uncertified.h
+  lcc/cells.h
+  lcc/choices.h
+  lcc/exit.h
+  lcc/obstacle.h
+  lcc/place.h
+  lcc/run.h
+  lcc/signs.h
+  lcc/star.h
+  lcc/types.h
   walk/certified_exit.h
   walk/in_boundary.h
   walk/link_search.h

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "environment/certify/facing.h"
 #include "environment/map/map_matches_snapshot.h"
-#include "environment/soup/describe_place.h"
 #include "environment/soup/parallel.h"
 #include "prepare_soup.h"
 #include "snapshot_soup.h"
@@ -48,19 +48,6 @@ void name_cells_of_input(Facing_walls& facing, const std::vector<std::uint32_t>&
   if (origin.empty()) return;
   for (Facing_facets* const found : {&facing.overlapping, &facing.near})
     for (std::uint32_t& cell : found->cells) cell = origin[cell];
-}
-
-/// \throw Error(not_certified) if facets overlap
-template <int D>
-void refuse_overlapping(const Facing_facets& facets) {
-  if (facets.pairs == 0) return;
-  throw Error(
-      Error_code::not_certified,
-      "cells " + std::to_string(facets.cells[0]) + " and " + std::to_string(facets.cells[1]) +
-          " share a part of a " + (D == 2 ? "line" : "plane") + " at " +
-          detail::describe_place(facets.place) + " but no facet" +
-          (facets.pairs == 1 ? "" : ", the first of " + std::to_string(facets.pairs) + " such pairs") +
-          ": divide them by `cellwalk import`, or keep duplicates (--duplicates keep) to have walls there");
 }
 
 }  // namespace
@@ -99,7 +86,7 @@ Environment<D> Environment<D>::build(Cell_soup<D> soup, const Build_options& opt
   }
   done.certificate = cellwalk::certify(*environment.snapshot_, environment.allow_duplicates_, &done.facing);
   name_cells_of_input(done.facing, done.origin);
-  if (!environment.allow_duplicates_) refuse_overlapping<D>(done.facing.overlapping);
+  if (!environment.allow_duplicates_) detail::refuse_overlapping<D>(done.facing.overlapping);
   return environment;
 }
 

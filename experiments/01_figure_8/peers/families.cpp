@@ -33,6 +33,7 @@ std::vector<Family> families() {
   std::vector<Family> all{{"bounds", "", add_bounds},
                           {"cellwalk", CELLWALK_VERSION, add_cellwalk_peers},
                           {"walks in doubles", "", add_double_walks},
+                          {"walk on the map", CELLWALK_VERSION, add_map_walk},
                           {"cgal", CGAL_VERSION_STR, add_cgal_peers}};
 #ifdef CELLWALK_BULLET_FLOAT
   all.push_back({"bullet, float", CELLWALK_BULLET_VERSION, plug_in(CELLWALK_BULLET_FLOAT)});

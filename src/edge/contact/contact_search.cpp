@@ -91,7 +91,8 @@ std::optional<Contact<D>> segment_search(const Snapshot<D>& snapshot, const Vert
   std::optional<Contact<D>> last;
   const auto is_free_at = [&](const Particle<D>& p) {
     ++counts.search_walks;
-    const Chain_result<D> walked = find_chain(snapshot, p, q, counts.walk);
+    Chain_result<D> walked = find_chain(snapshot, p, q, counts.walk);
+    if (walked.contact && walked.has_choice) walked = find_any_chain(snapshot, p, q, counts.walk);
     if (walked.contact) last = walked.contact;
     return !walked.contact;
   };

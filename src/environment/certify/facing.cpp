@@ -4,8 +4,12 @@
 
 #include <cellwalk/internal/kernel/box.h>
 #include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/kernel/error.h>
+
+#include <string>
 
 #include "common_part.h"
+#include "environment/soup/describe_place.h"
 #include "environment/soup/parallel.h"
 
 namespace cellwalk::detail {
@@ -91,6 +95,20 @@ Facing_walls Facing_search<D>::result() const {
 }
 
 template class Facing_search<2>;
+template <int D>
+void refuse_overlapping(const Facing_facets& facets) {
+  if (facets.pairs == 0) return;
+  throw Error(
+      Error_code::not_certified,
+      "cells " + std::to_string(facets.cells[0]) + " and " + std::to_string(facets.cells[1]) +
+          " share a part of a " + (D == 2 ? "line" : "plane") + " at " + describe_place(facets.place) +
+          " but no facet" +
+          (facets.pairs == 1 ? "" : ", the first of " + std::to_string(facets.pairs) + " such pairs") +
+          ": divide them by `cellwalk import`, or keep duplicates (--duplicates keep) to have walls there");
+}
+
 template class Facing_search<3>;
+template void refuse_overlapping<2>(const Facing_facets&);
+template void refuse_overlapping<3>(const Facing_facets&);
 
 }  // namespace cellwalk::detail

@@ -59,6 +59,10 @@ class Facing_search {
 extern template class Facing_search<2>;
 extern template class Facing_search<3>;
 
+/// \throw Error(not_certified) if facets overlap
+template <int D>
+void refuse_overlapping(const Facing_facets& facets);
+
 }  // namespace cellwalk::detail
 
 #endif  // CELLWALK_ENVIRONMENT_CERTIFY_FACING_H

@@ -41,7 +41,7 @@ bool is_same_half_facet(const Map_storage<D>& storage, const Snapshot<D>& snapsh
   const Cell c = snapshot.cell_of(f);
   return info.cell() == snapshot.index(c) && info.half_facet() == to_index(f) &&
          info.is_impassable() == snapshot.is_impassable(f) && info.is_solid() == snapshot.is_solid(c) &&
-         across == snapshot.opposite(f) && is_same_loop(loop_of(storage, d), snapshot.loop(f));
+         across == snapshot.opposite(f) && has_loop_of(storage, snapshot, d, f);
 }
 
 }  // namespace
@@ -79,6 +79,13 @@ void check_map_matches_snapshot(const Map_storage<D>& storage, const Snapshot<D>
   }
 }
 
+template <int D>
+bool has_loop_of(const Map_storage<D>& storage, const Snapshot<D>& snapshot, Const_dart<D> d, Half_facet f) {
+  return is_same_loop(loop_of(storage, d), snapshot.loop(f));
+}
+
+template bool has_loop_of(const Map_storage<2>&, const Snapshot<2>&, Const_dart<2>, Half_facet);
+template bool has_loop_of(const Map_storage<3>&, const Snapshot<3>&, Const_dart<3>, Half_facet);
 template void check_map_matches_snapshot(const Map_storage<2>&, const Snapshot<2>&);
 template void check_map_matches_snapshot(const Map_storage<3>&, const Snapshot<3>&);
 

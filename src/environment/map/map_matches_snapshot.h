@@ -15,6 +15,10 @@ namespace cellwalk {
 template <int D>
 void check_map_matches_snapshot(const Map_storage<D>& storage, const Snapshot<D>& snapshot);
 
+/// True if the half-facet of a dart has the same points in the same order as one of the snapshot.
+template <int D>
+bool has_loop_of(const Map_storage<D>& storage, const Snapshot<D>& snapshot, Const_dart<D> d, Half_facet f);
+
 }  // namespace cellwalk
 
 #endif  // CELLWALK_ENVIRONMENT_MAP_MAP_MATCHES_SNAPSHOT_H

@@ -50,6 +50,11 @@ class Snapshot_compiler {
     s_.edits_ = before.edits_;
     s_.edits_.note_renamed(s_.epoch_, std::move(names));
   }
+  /// Notes cells that are new since, and facets that were opened or closed, by their two sides.
+  void note_edited(std::span<const Cell> added, std::span<const std::pair<Half_facet, Half_facet>> turned) {
+    s_.edits_.note_new(s_.epoch_, added, Cell::none);
+    for (const auto& [one, other] : turned) s_.edits_.note_turned(s_.epoch_, one, other);
+  }
   /// Makes certificates of cells anew that were withdrawn. No epoch rises: it did when points moved.
   void certify_again(std::span<const Cell> cells) {
     const std::uint64_t epoch = s_.epoch_, geometry_epoch = s_.geometry_epoch_;
