@@ -24,11 +24,17 @@ struct Impassable {
   bool operator()(const Const_dart<3>& d) const { return map->info(d).is_impassable(); }
 };
 
+struct Walked_map {
+  explicit Walked_map(const Grid_world& world)
+      : storage(build_map(world.soup, world.gluing)), walker(storage->map, {&storage->map}) {}
+  const std::unique_ptr<Map_storage<3>> storage;
+  const lcc::Walker<Map<3>, Impassable> walker;
+};
+
 class Map_walk {
  public:
   static constexpr unsigned bits = segment_bits;
-  Map_walk(std::shared_ptr<Map_storage<3>> storage, const Grid_world& world)
-      : storage_(std::move(storage)), world_(&world) {}
+  Map_walk(std::shared_ptr<Walked_map> map, const Grid_world& world) : map_(std::move(map)), world_(&world) {}
 
   void prepare(const Trace& trace) {
     particles_.clear();
@@ -44,14 +50,13 @@ class Map_walk {
   }
   template <class Counter>
   unsigned vertex(std::size_t body, std::size_t v, const Point<3>*, const Point<3>& target, Counter&) {
-    const lcc::Walker<Map<3>, Impassable> walker(storage_->map, {&storage_->map});
     auto* const particles = particles_.data() + body * trace_vertices;
     auto p = particles[v];
-    unsigned answer = walker.move(p, to_map_point(target), counts_).status != lcc::Status::arrived;
+    unsigned answer = map_->walker.move(p, to_map_point(target), counts_).status != lcc::Status::arrived;
     for (std::size_t k = 0; k < trace_edges; ++k) {
       const auto& q = particles[trace_neighbour(v, k)];
       if (cell_of(p.dart) == cell_of(q.dart)) continue;
-      const auto way = walker.walk(p, q.position, counts_);
+      const auto way = map_->walker.walk(p, q.position, counts_);
       answer |= static_cast<unsigned>(way.status != lcc::Status::arrived) << (k + 1);
     }
     if (!answer) particles[v] = p;
@@ -64,9 +69,9 @@ class Map_walk {
   }
 
  private:
-  std::uint32_t cell_of(const Const_dart<3>& d) const { return storage_->map.info(d).cell(); }
+  std::uint32_t cell_of(const Const_dart<3>& d) const { return map_->storage->map.info(d).cell(); }
 
-  std::shared_ptr<Map_storage<3>> storage_;
+  std::shared_ptr<Walked_map> map_;
   const Grid_world* world_;
   std::vector<lcc::Particle<Map<3>>> particles_;
   lcc::Counts counts_;
@@ -76,9 +81,8 @@ class Map_walk {
 
 void add_map_walk(const Grid_world& world, Peers& peers) {
   Build build;
-  const auto storage = measured_build(
-      build, "cell", [&] { return std::shared_ptr<Map_storage<3>>(build_map(world.soup, world.gluing)); });
-  add_peer(peers, "map_walk", Map_walk(storage, world), build);
+  const auto map = measured_build(build, "cell", [&] { return std::make_shared<Walked_map>(world); });
+  add_peer(peers, "map_walk", Map_walk(map, world), build);
 }
 
 }  // namespace cellwalk::figure_8

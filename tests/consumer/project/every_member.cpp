@@ -4,7 +4,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/environment/compiled.h>
-#include <cellwalk/environment/map.h>
+#include <cellwalk/environment/map_edit.h>
 #include <cellwalk/environment/selection.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/mesh_file.h>
@@ -56,7 +56,9 @@ void keep_environments() {
        &Environment<D>::is_frozen, &Environment<D>::freeze, &Environment<D>::thaw, &Environment<D>::compact,
        &Environment<D>::soup, &Environment<D>::set_impassable, &Environment<D>::excavate,
        &Environment<D>::fill, &Environment<D>::move_vertex, &Environment<D>::insert_point,
-       &Environment<D>::certify, &Environment<D>::cells_around);
+       &Environment<D>::certify, &Environment<D>::cells_around,
+       static_cast<Compaction (Environment<D>::*)(void (*&&)(Map<D>&))>(&Environment<D>::edit),
+       &set_impassable<D>);
 
   keep(&write_compiled<D>, &compile_to_bytes<D>, &check_compiled<D>, &write_environment<D>, &soup_groups<D>);
 
