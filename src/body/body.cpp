@@ -16,6 +16,7 @@
 
 #include "body/region/point_box.h"
 #include "body/registration/register_again.h"
+#include "body/registration/sides_of_faces.h"
 #include "body/shape/body_faces.h"
 #include "body/step/step_at_target.h"
 #include "body/step/vertex_move.h"
@@ -100,7 +101,14 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
   if constexpr (D == 3) {
     Face_counts uncounted;
     const auto pierced = detail::register_faces(*state, uncounted);
-    if (!pierced.empty()) detail::refuse_pierced(*state, pierced.front(), Error_code::outside);
+    if (pierced.empty()) return state;
+    // The faces may pass on other sides of walls than those which the edges prefer.
+    const detail::Side_search search =
+        detail::find_sides_of_faces(*state, detail::sides_left(snapshot, locator, soup));
+    if (search != detail::Side_search::found)
+      detail::refuse_pierced(*state, pierced.front(), Error_code::outside,
+                             search == detail::Side_search::ended);
+    state->pool.prepare(snapshot, state->particles);
   }
   return state;
 }

@@ -34,8 +34,16 @@ class Registration {
       for (const std::uint32_t v : soup.edges[e]) edges_at_[v].push_back(e);
   }
 
-  Registered<D> run() {
+  using Sides = std::vector<Particle<D>>;
+
+  /// The sides that agree edge by edge.
+  std::vector<Sides> left() {
     for (std::uint32_t e = 0; e < soup_.edges.size(); ++e) narrow_all(e);
+    return sides_;
+  }
+
+  Registered<D> run() {
+    left();
     // The sides that are left agree edge by edge. A vertex with a choice takes one side, and its neighbours
     // follow. Those that can stay where they were go first, so that none that cannot makes them leave.
     for (const bool can_stay : {true, false})
@@ -51,8 +59,6 @@ class Registration {
   }
 
  private:
-  using Sides = std::vector<Particle<D>>;
-
   std::string place(std::uint32_t v) const { return fmt::format("({})", fmt::join(soup_.points[v], ", ")); }
 
   Cell cell_before(std::uint32_t v) const {
@@ -260,6 +266,11 @@ template <int D>
 Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
                             const Registered_before<D>& before) {
   return Registration<D>(snapshot, locator, soup, before).run();
+}
+
+std::vector<std::vector<Particle<3>>> sides_left(const Snapshot<3>& snapshot, const Locator<3>& locator,
+                                                 const Body_soup<3>& soup) {
+  return Registration<3>(snapshot, locator, soup, {}).left();
 }
 
 template Registered<2> register_body<2>(const Snapshot<2>&, const Locator<2>&, const Body_soup<2>&,

@@ -40,6 +40,12 @@ template <int D>
 Registered<D> register_body(const Snapshot<D>& snapshot, const Locator<D>& locator, const Body_soup<D>& soup,
                             const Registered_before<D>& before = {});
 
+/// The sides of walls of each vertex between which the edges of a body leave the choice, in the order of
+/// preference.
+/// \throw Error(outside) as Body does
+std::vector<std::vector<Particle<3>>> sides_left(const Snapshot<3>& snapshot, const Locator<3>& locator,
+                                                 const Body_soup<3>& soup);
+
 }  // namespace cellwalk::detail
 
 #endif  // CELLWALK_BODY_REGISTRATION_REGISTRATION_H

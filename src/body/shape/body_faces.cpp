@@ -153,15 +153,18 @@ std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& count
   return pierced;
 }
 
-void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code) {
+void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code,
+                    bool has_search_ended) {
   const auto& [u, v, w] = body.topology.faces()[pierced.face];
   const auto place = [&](std::uint32_t x) { return fmt::format("({})", fmt::join(body.positions[x], ", ")); };
   const Snapshot<3>& snapshot = *body.snapshot;
-  throw Error(code,
-              fmt::format("face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by "
-                          "a wall of cell {}: move the body into free space",
-                          pierced.face, u, place(u), v, place(v), w, place(w),
-                          snapshot.index(snapshot.cell_of(pierced.wall))));
+  throw Error(
+      code,
+      fmt::format(
+          "face {} of the body, with vertices {} at {}, {} at {} and {} at {}, is pierced by "
+          "a wall of cell {}{}: move the body into free space",
+          pierced.face, u, place(u), v, place(v), w, place(w), snapshot.index(snapshot.cell_of(pierced.wall)),
+          has_search_ended ? ", and the search for other sides of walls ended without a result" : ""));
 }
 
 void take_up_faces(Body_state<3>& body, Body_counts& counts) {

@@ -26,8 +26,10 @@ struct Pierced_face {
 /// Registers all faces. Returns those that a wall pierces, ascending: the body must not be used then.
 std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& counts);
 
+/// \param has_search_ended there may be sides of walls on which the body passes, but they were not found
 /// \throw Error(code) naming the face
-[[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code);
+[[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code,
+                                 bool has_search_ended = false);
 
 /// Before faces are swept after moves that left them alone: registers them all, for which all vertices and
 /// edges are needed.
