@@ -64,6 +64,27 @@ TYPED_TEST(RimSides, EachBodyTakesItsOwn) {
   }
 }
 
+/// One body, of which some parts go above the wall and others below it.
+TYPED_TEST(RimSides, EachVertexOfABodyTakesItsOwn) {
+  constexpr int D = TypeParam::value;
+  // Bits of `above` say which of the edges end above the wall.
+  for (std::uint32_t above = 0; above < 16; ++above) {
+    test::Star_scene<D> scene(tip_of_four<D>());
+    Body_soup<D> soup;
+    for (std::uint32_t e = 0; e < 4; ++e) {
+      const double height = above >> e & 1 ? 1.0 : -1.0;
+      soup.points.push_back(at<D>(0.125 * e, 0));
+      soup.points.push_back(at<D>(-1 + 0.125 * e, height, 0.125));
+      soup.edges.push_back({2 * e, 2 * e + 1});
+    }
+    scene.bodies.push_back(std::make_unique<Body<D>>(scene.snapshot, Locator<D>(scene.snapshot), soup));
+    EXPECT_EQ(scene.end_of(at<D>(1, 0)), Move_end::reached) << above;
+    // Now those above it are in its way up, and the others in its way down.
+    if (above != 0) scene.expect_hit(at<D>(1, 0.125), 0, 1);
+    if (above != 15) scene.expect_hit(at<D>(1, -0.125), 0, 1);
+  }
+}
+
 TYPED_TEST(RimSides, AnEdgeAroundTheRimIsInItsWay) {
   constexpr int D = TypeParam::value;
   test::Star_scene<D> scene(tip_of_four<D>());

@@ -55,6 +55,7 @@ bool Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group)
   const auto try_choice = [&] {
     is_free_ = true;
     collision_.reset();
+    passed_ = with_choice_ = blocked_after_ = 0;
     shorten(moved_, moved);
     shorten(chains_, chains);
     shorten(supporting_walls_, walls);
@@ -64,18 +65,66 @@ bool Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group)
   std::optional<Collision> last;
   follows_all_ = to_dead_end_ = false;
   dead_ends_ = 0;
+  bool have_several_choices = false;
   for (choice_ = 0, choices_ = 1; choice_ < std::min(choices_, most_choices); ++choice_) {
     const bool is_free = try_choice();
     if (choice_ == 0) note_first_choice(before);
     if (is_free) return true;
     if (choice_ == 0 || goes_further_than(last)) last = std::move(collision_);
+    have_several_choices |= with_choice_ > 1;
   }
+  if (have_several_choices && try_combinations(try_choice, last)) return true;
   // It is blocked. A side on which a vertex gets not to the end may go further than others.
   follows_all_ = to_dead_end_ = true;
   for (choice_ = 0; last && choice_ < std::min(dead_ends_, most_choices); ++choice_)
     if (!try_choice() && goes_further_than(last)) last = std::move(collision_);
   if (last) keep_first(first_, *std::move(last));
   return false;
+}
+
+/// Each vertex on a side of its own, and each edge on one on which it is free then. What blocks a combination
+/// first blocks all that have the same choices up to those on which it depends, no later: they are left out.
+template <int D>
+bool Vertex_trial<D>::try_combinations(const std::function<bool()>& try_choice,
+                                       std::optional<Collision>& last) {
+  combines_ = follows_all_ = true;
+  combined_.clear();
+  bool is_free = false;
+  for (std::size_t tries = 0; tries < most_combinations; ++tries) {
+    is_free = try_choice();
+    if (is_free) break;
+    if (goes_further_than(last)) last = std::move(collision_);
+    if (!take_next()) break;
+  }
+  combines_ = false;
+  return is_free;
+}
+
+/// Another side at the last choice that leaves one, of those that may help; false if there is none.
+template <int D>
+bool Vertex_trial<D>::take_next() {
+  combined_.resize(std::min(combined_.size(), blocked_after_));
+  while (!combined_.empty() && combined_.back().taken + 1 == combined_.back().sides) combined_.pop_back();
+  if (combined_.empty()) return false;
+  ++combined_.back().taken;
+  return true;
+}
+
+/// The side of the vertex that is followed next.
+template <int D>
+std::size_t Vertex_trial<D>::choice_of_next() const {
+  if (!combines_) return choice_;
+  return passed_ < combined_.size() ? combined_[passed_].taken : 0;
+}
+
+/// Notes how many sides it had.
+template <int D>
+void Vertex_trial<D>::note_choices(std::size_t choices) {
+  choices_ = std::max(choices_, choices);
+  with_choice_ += choices > 1;
+  if (!combines_) return;
+  if (passed_ == combined_.size()) combined_.push_back({choices, 0});
+  ++passed_;
 }
 
 /// True if this choice of sides goes further than another one: nothing is passed by it, or later.
@@ -142,9 +191,10 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   }
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
-    Followed_vertex<D> followed = follow_vertex(star, p, choice_, to_dead_end_);
+    Followed_vertex<D> followed = follow_vertex(star, p, choice_of_next(), to_dead_end_);
     // Of a vertex that is blocked, sides matter to its edges until then.
-    if (followed.is_free() || !any_) choices_ = std::max(choices_, followed.choices);
+    note_choices(followed.is_free() || !any_ ? std::max<std::size_t>(followed.choices, 1) : 1);
+    vertex.depends_on = passed_;
     dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     ++counts_.followed;
     vertex.stays = std::move(followed.stays);
@@ -154,7 +204,7 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
     }
     take(followed.collision, met);
   }
-  block(std::move(met), vertex.member);
+  block(std::move(met), vertex.member, vertex.depends_on);
   return false;
 }
 
@@ -217,7 +267,10 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
       take(followed.collision, met);
     }
     // A blocked end decides for an edge that is only touched until then.
-    if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge);
+    if (are_ends_free || met.meeting == Encounter::hit) {
+      const auto depth = [](const Moved_vertex* moved) { return moved ? moved->depends_on : 0; };
+      block(std::move(met), edge, std::max(depth(moved_p), depth(moved_q)));
+    }
     return false;
   }
   if (is_blocked(moved_p) || is_blocked(moved_q)) return false;
@@ -245,8 +298,11 @@ Followed_edge Vertex_trial<D>::follow(const Moving_star<D>& star, Member edge, c
     result.end = moved ? moved->now.cell : before.cell;
     return result;
   };
-  Followed_edge followed = follow_edge(star, end(u, moved_p), end(v, moved_q), groups_.chain(edge), choice_);
+  const Followed_vertex<D> p = end(u, moved_p), q = end(v, moved_q);
+  Followed_edge followed = follow_edge(star, p, q, groups_.chain(edge), combines_ ? 0 : choice_);
   choices_ = std::max(choices_, followed.choices);
+  for (std::size_t k = 1; combines_ && !followed.is_free() && k < followed.choices; ++k)
+    followed = follow_edge(star, p, q, groups_.chain(edge), k);
   if (!followed.is_free()) follow_kept(star, {moved_p, moved_q});
   return followed;
 }
@@ -270,9 +326,13 @@ bool Vertex_trial<D>::meets(const Moving_star<D>& star, std::span<const Point<D>
 }
 
 /// Notes that something is in the way.
+/// \param depends_on the number of combined choices, the first, of which another one may let it pass
 template <int D>
-void Vertex_trial<D>::block(Star_meeting met, Member member) {
+void Vertex_trial<D>::block(Star_meeting met, Member member, std::size_t depends_on) {
   ++(met.meeting == Encounter::hit ? counts_.hits : counts_.touches);
+  const bool is_first = met.collision ? !collision_ || met.collision->time < collision_->time
+                                      : is_free_ || (!collision_ && depends_on < blocked_after_);
+  if (is_first) blocked_after_ = depends_on;
   is_free_ = false;
   if (!met.collision) return;
   met.collision->group = member.group;

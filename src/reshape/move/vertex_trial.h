@@ -10,6 +10,7 @@
 #include <cellwalk/reshape/move.h>
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -55,6 +56,7 @@ class Vertex_trial {
     Particle<D> now;
     std::vector<Cell_until> stays;  ///< if it was followed
     bool keeps_cell, is_free;
+    std::size_t depends_on = 0;  ///< the number of combined choices up to its own
   };
   void find_groups_near(const Moving_star<D>& star);
   bool try_group(const Moving_star<D>& star, std::uint32_t group);
@@ -71,7 +73,11 @@ class Vertex_trial {
                        const Moved_vertex* moved_q);
   bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
   Face_at_star after(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
-  void block(Star_meeting met, Member member);
+  void block(Star_meeting met, Member member, std::size_t depends_on);
+  bool try_combinations(const std::function<bool()>& try_choice, std::optional<Collision>& last);
+  bool take_next();
+  std::size_t choice_of_next() const;
+  void note_choices(std::size_t choices);
   template <class Starts>
   bool meets(const Moving_star<D>& star, std::span<const Point<D>> points, const Starts& keeps_at_start,
              Star_meeting& met) const;
@@ -81,12 +87,22 @@ class Vertex_trial {
   Resident_groups<D>& groups_;
   Reshape_counts& counts_;
   /// The number of choices that are tried where vertices and edges of a body may be on several sides of
-  /// walls, each for all of them.
+  /// walls, each for all of them, and then that of combinations.
   static constexpr std::size_t most_choices = 4;
+  static constexpr std::size_t most_combinations = 256;
   std::size_t choice_ = 0, choices_ = 1;
   bool follows_all_ = false;   ///< also vertices that keep their cells
   std::size_t dead_ends_ = 0;  ///< the most sides on which a vertex is blocked after a while, not on others
   bool to_dead_end_ = false;   ///< these are tried
+  /// The side that a followed vertex takes, of as many, where each takes its own.
+  struct Choice {
+    std::size_t sides, taken;
+  };
+  std::vector<Choice> combined_;
+  bool combines_ = false;          ///< each takes its own
+  std::size_t passed_ = 0;         ///< of the combined choices, by this trial
+  std::size_t with_choice_ = 0;    ///< vertices that have one, by this trial
+  std::size_t blocked_after_ = 0;  ///< only other ones of so many choices, the first, may let it pass
   bool any_ = false;
   std::uint64_t near_ = 0, certified_ = 0;
   // By the present choice:

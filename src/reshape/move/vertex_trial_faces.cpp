@@ -55,7 +55,7 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
     }
     take(result.collision, met);
   }
-  block(std::move(met), face);
+  block(std::move(met), face, passed_);
   return false;
 }
 
