@@ -36,9 +36,9 @@ NUMBER = r"\d+(?:[,']\d{3})*(?:\.\d+)?(?:\^\d+)?"
 UNIT = (r"ns|us|µs|ms|s|seconds?|min|minutes?|h|hours?|%|per cent|percent|[kKMG]i?B|bytes?|times|fold|thousand|millions?|instructions?|"
         r"moves|walks|sweeps|motions|contacts|escapes|jobs|changes|replacements|questions|queries")
 LOOKS_MEASURED = re.compile(
-    rf"(?<![\w.^/-]){NUMBER}(?:(?:,| to| and| or|, and| of)? {NUMBER})*(?: \**(?:{UNIT})\b| ?%|\**(?:{UNIT})\b)|"
+    rf"(?<![\w.^/-]){NUMBER}(?:(?:,| to| and| or|, and| of)? {NUMBER})* ?\**(?:{UNIT})(?!\w)|"
     rf"(?<![\w.^/-]){NUMBER}(?: to {NUMBER})? of (?:\w+ )?\d+,\d{{3}}|\b\d{{1,3}}(?:,\d{{3}})+")
-CELL = re.compile(rf"(?:[\s*();,/~-]|\bto\b|\band\b|\bof\b|\b(?:{UNIT})\b|%|{NUMBER})+")
+CELL = re.compile(rf"(?:[\s*();,/~-]|\bto\b|\band\b|\bof\b|(?:{UNIT})(?!\w)|{NUMBER})+")
 
 
 class Block:
@@ -55,7 +55,7 @@ def squeeze(text):
 
 
 def hidden(text):
-    """The text with as many dots for code and addresses."""
+    """The text without code and addresses, of the same length."""
     return re.sub(r"`[^`]*`|\]\([^)]*\)|https?:\S*", lambda match: "`" * len(match[0]), text)
 
 
@@ -111,6 +111,12 @@ class Piece:
 
     def values(self):
         return [self.text[start:end] for start, end in self.numbers]
+
+    def starts_in(self, text):
+        """Where it stands in a text, and not within a longer word or number."""
+        before = r"(?<![\w.])" if self.text[:1].isalnum() else ""
+        after = r"(?!\w|[.,]\d)" if self.text[-1:].isalnum() else ""
+        return [match.start() for match in re.finditer(before + re.escape(self.text) + after, text)]
 
 
 class Entry:
@@ -176,8 +182,7 @@ class Checker:
         if entry.page not in self.pages:
             yield f"there is no page {entry.page}"
             return
-        places = [(block, match.start()) for block in self.pages[entry.page]
-                  for match in re.finditer(re.escape(entry.piece.text), block.text)]
+        places = [(block, start) for block in self.pages[entry.page] for start in entry.piece.starts_in(block.text)]
         if len(places) != 1:
             yield f"{entry.page} has this piece {len(places)} times: {entry.piece.text}"
             return
@@ -208,7 +213,7 @@ class Checker:
     def compare(self, entry):
         numbers = []
         for name, piece in entry.sources:
-            found = without_marks(self.files.get(name, "")).count(without_marks(piece.text))
+            found = len(piece.starts_in(without_marks(self.files.get(name, ""))))
             if found != 1:
                 yield f"{name} has this piece {found} times: {piece.text}"
                 return
@@ -277,6 +282,8 @@ By `bench_b`
 FAULTS = [  # what happens, a file, a piece of it, what stands there instead, and what is said
     ("nothing", "b.md", "", "", ""),
     ("a number of the page", "docs/a.md", "16.1 us", "16.2 us", "0 times"),
+    ("a digit before a number of the page", "docs/a.md", "7.5 %", "17.5 %", "0 times"),
+    ("a digit after a number of the source", "b.md", "86.5.", "86.53.", "0 times"),
     ("a number of the source", "b.md", "3,500", "3,600", "0 times"),
     ("a number of the source, in its entry too", ("b.md", ENTRIES), "3,500", "3,600", "docs/a.md has 3.5, the source 3.6"),
     ("a number of the page, in its entry too", ("docs/a.md", ENTRIES), "16.1", "16.2", "docs/a.md has 16.2, the source 16.12"),
