@@ -49,10 +49,10 @@ enum class Step_rule {
 
 struct Body_options {
   Sweep_options sweep;
-  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it; only,
-  /// a vertex that comes to lie on a border between cells may be registered in another of them, and where
-  /// walls leave a choice, of the side on which a motion in their plane goes on or of the one to report, that
-  /// may be taken otherwise.
+  /// Keep a region that is free of walls, in which nothing needs a test. All is decided as without it, sides
+  /// of walls included; only, a vertex that comes to lie on a border between cells may be registered in
+  /// another one of those that are linked there, and a contact may name its wall from another one. Times,
+  /// places and normals are the same, to the bit.
   bool clearance = true;
   Step_rule rule = Step_rule::slide;
   /// By Step_rule::reject_at_target, report the blocked parts instead of contacts. This costs less, since the

@@ -90,7 +90,7 @@ class Environment {
   /// `report` is filled up to the point of failure.
   /// \param report if not null, receives all changes and the counts
   /// \throw Error(input) for a malformed soup, Error(not_certified) with the cell and the reason
-  /// Cost: about 2.5 us a tetrahedron on two cores (1.6 us without the map), up to twice as much if cells and
+  /// Cost: about 2.5 us a tetrahedron on two cores (1.5 us without the map), up to twice as much if cells and
   /// points are in random order.
   static Environment build(Cell_soup<D> soup, const Build_options& options = {},
                            Build_report* report = nullptr);

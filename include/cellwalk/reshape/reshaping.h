@@ -207,7 +207,7 @@ class Reshaping {
   /// counts the parts.
   /// \throw Error(input) for a blade that is none or lies far off, or an opening that is no positive length;
   ///        Error(usage) if frozen or closed, and for a particle near not in its cell; before any change
-  /// Cost: some 40 us a cell that the blade passes, and at the first time 0.2 us a cell of the environment.
+  /// Cost: some 40 us a cell that the blade passes, and at the first time 0.5 us a cell of the environment.
   Cut_report cut(const Blade<D>& blade, const Cut_options<D>& options = {});
 
   /// Makes certificates anew, and lets the bodies listed go on. Nothing can be moved or changed after that.

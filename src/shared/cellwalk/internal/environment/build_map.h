@@ -18,7 +18,7 @@ namespace cellwalk {
 /// between a solid and a free cell.
 /// \pre gluing = glue(soup); every point is a vertex of some cell
 /// \throw Error(not_certified) if the facets of a cell do not close up, naming the cell
-/// Cost: about 0.8 us a tetrahedron on one core, 0.5 us on two; memory 679 bytes a tetrahedron.
+/// Cost: about 0.8 us a tetrahedron on one core, 0.5 us on two; memory 681 bytes a tetrahedron.
 template <int D>
 std::unique_ptr<Map_storage<D>> build_map(const Cell_soup<D>& soup, const Gluing& gluing);
 
