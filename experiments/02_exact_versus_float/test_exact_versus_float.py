@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import quick_case  # noqa: E402
 import summarize  # noqa: E402
-from tables import EXACT, ROUNDED, read_rows  # noqa: E402
+from tables import EXACT, ROUNDED, interval, read_rows  # noqa: E402
 
 
 class ExactVersusFloat(quick_case.QuickCase):
@@ -112,12 +112,15 @@ class ExactVersusFloat(quick_case.QuickCase):
         for name in ("walks.csv", "flights.csv"):
             for row in read_rows(self.out / name):
                 self.assertEqual(int(row["wrong"]), sum(int(row[c]) for c in columns), row)
+        for row in read_rows(self.out / "walks.csv"):
+            for bound, value in zip(("low", "high"), interval(int(row["wrong"]), int(row["motions"]))):
+                self.assertAlmostEqual(float(row[bound]), value, places=12, msg=row)
         rows = [{"dimension": "3", "variable": "degeneracy", "value": "0", "kernel": k, "motions": "1000", **dict.fromkeys(columns, "0")}
                 for k in ("exact", "lazy", "double")]
         rows[2] |= {"wrong_cell": "3", "illegal_way": "2"}
         text = summarize.failure_table(rows, "3")
         self.assertIn("| exactly degenerate | exact kernels | 2,000 | 0 (0 to 1,500) |", text)
-        self.assertIn("| exactly degenerate | double | 1,000 | 0 (0 to 3,000) | 0 (0 to 3,000) | 5,000 (2,137 to 11,653) |", text)
+        self.assertIn("| exactly degenerate | double | 1,000 | 0 (0 to 3,000) | 0 (0 to 3,000) | 5,000 (2,138 to 11,651) |", text)
 
     def test_failures_can_be_replayed(self):
         records = sorted((self.out / "failures").glob("*.json"))
