@@ -39,7 +39,7 @@ def exact_versus_float(folder):
     verdicts = {"missed_wall": 1, "false_contact": 2, "stuck": 3, "lost": 4}
     write(folder, "walks.csv", [
         {"dimension": d, "kernel": k, "motions": 1000, "wrong": wrong, **(verdicts if wrong else dict.fromkeys(verdicts, 0))}
-        for d in (2, 3) for k, wrong in (("exact", 0), ("double", 10), ("double_1e-9", 20))])
+        for d in (2, 3) for k, wrong in (("exact", 0), ("adaptive", 0), ("double", 10), ("double_1e-9", 20))])
     write(folder, "sweeps.csv", [
         {"dimension": d, "method": m, "sweeps": 500, "blocked": 100, "wrong": wrong, "missed": wrong, "false_contact": 0}
         for d in (2, 3) for m, wrong in (("triangle", 0), ("three_segments", 7), ("walks_lazy", 99))])
@@ -168,7 +168,7 @@ class CollectNumbers(unittest.TestCase):
         self.assertIn(r"(20 steps; walls hold 10 of 1,000 moves), the complete sweep takes 7.5 to 11\,ns, three segments 5 to 7.5\,ns, Bullet with",
                       macros["FigEightRigid"])
         self.assertEqual(("0.5", "50.0"), (macros["FigEightOverDouble"], macros["FigEightClear"]))
-        self.assertEqual(("2\\,000", "0"), (macros["ExactWalks"], macros["ExactWalksWrong"]))
+        self.assertEqual(("4\\,000", "0"), (macros["ExactWalks"], macros["ExactWalksWrong"]))
         self.assertEqual(("1.0", "2.0"), (macros["DoubleWrong"], macros["TolerantWrong"]))
         self.assertEqual(("0", "14"), (macros["SegmentsFalse"], macros["SegmentsMissed"]))
         self.assertEqual(("40", "15", "4", "3.0"), tuple(macros[n] for n in ("SweepContacts", "SweepMissed", "SignRatioMost", "SweepEventsMost")))
@@ -233,6 +233,7 @@ class CollectNumbers(unittest.TestCase):
         out = self.root / "out"
         self.assertIn(r"Bullet, a box an edge & 200 & 300 & 0 / 0 \\", (out / "table_figure_8.tex").read_text(encoding="utf-8"))
         self.assertIn(r"3D & \texttt{double} & 1\,000 & 10 & 1.0 & 1 & 2 & 7 \\", (out / "table_walks.tex").read_text(encoding="utf-8"))
+        self.assertNotIn("adaptive", (out / "table_walks.tex").read_text(encoding="utf-8"))
         self.assertIn(r"\texttt{0123456789ab} & GNU 12 & some\_processor", (out / "table_runs.tex").read_text(encoding="utf-8"))
         self.assertIn(r"coplanar walls & 0.0 & 50.0 & 40.0 & 50.0 \\", (out / "table_degenerate.tex").read_text(encoding="utf-8"))
         self.assertIn(r"no regions; no chains in place & 2 & 0.05 &", (out / "table_certificates.tex").read_text(encoding="utf-8"))

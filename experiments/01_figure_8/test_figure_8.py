@@ -29,7 +29,7 @@ ANSWERS = ["moves", "hits", "missed", "false"]
 COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "clear_moves"]
 COLUMNS = ["trace", "method", *ANSWERS, *COUNTS]
 ALWAYS = {"read_and_write", "unit_cubes", "cellwalk_three_segments", "cellwalk_triangle", "double_walk", "library_double",
-          "cgal_segment", "cgal_triangle", "cgal_kept_box"}
+          "double_regions", "map_walk", "cgal_segment", "cgal_triangle", "cgal_kept_box"}
 PEERS = {
     "bullet": {"bullet_swept_box", "bullet_ray", "bullet_body_box", "bullet_kept_box", "gimpact_tau"},
     "bullet_double": {"bullet_swept_box_double", "bullet_ray_double", "bullet_body_box_double", "bullet_kept_box_double",

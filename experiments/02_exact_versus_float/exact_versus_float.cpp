@@ -3,7 +3,7 @@
 //
 //   exact_versus_float -o DIR [--part walks|sweeps|flights|failures|times ...] [--motions N] [--sweeps N]
 //                            [--moves N] [--timed N] [--seed S] [--threads N] [--kernel NAME ...]
-//                            [--resume] [--commit NAME]
+//                            [--mesh FILE ...] [--resume] [--commit NAME]
 #include <cellwalk/internal/io/json_file.h>
 
 #include <CLI/CLI.hpp>
@@ -45,12 +45,12 @@ struct Options {
   std::vector<std::string> parts{"walks", "sweeps", "flights", "failures", "times"};
   std::uint64_t seed = 1, motions = 1000, sweeps = 500, moves = 10000, timed = 20000;
   std::size_t threads = 1;
-  std::vector<std::string> kernels = kernel_names();
+  std::vector<std::string> kernels = kernel_names(), meshes;
   bool is_resumed = false;
 
   bool runs(const char* part) const { return is_in(parts, part); }
   Run_options with(std::uint64_t count, Kept_counts& kept) const {
-    Run_options run{folder, seed, count, {}, &kept};
+    Run_options run{folder, seed, count, {}, &kept, {meshes.begin(), meshes.end()}};
     const auto names = kernel_names();
     for (std::size_t k = 0; k < kernel_count; ++k) run.kernels[k] = is_in(kernels, names[k]);
     return run;
@@ -62,7 +62,8 @@ struct Options {
                                   {"seed", seed},
                                   {"motions", motions},
                                   {"sweeps", sweeps},
-                                  {"kernels", kernels}}
+                                  {"kernels", kernels},
+                                  {"meshes", meshes}}
         .dump();
   }
 };
@@ -111,6 +112,8 @@ int main(int argc, char** argv) {
   app.add_option("--kernel", options.kernels, "which walk, in walks and sweeps")
       ->check(CLI::IsMember(options.kernels))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--mesh", options.meshes, "a file of cells that is walked in, too")
+      ->check(CLI::ExistingFile);
   app.add_flag("--resume", options.is_resumed, "go on with the counts that a stopped run left in the folder");
   app.add_option("--commit", options.commit, "what the manifest names as the source");
   CLI11_PARSE(app, argc, argv);

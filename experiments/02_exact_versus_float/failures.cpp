@@ -34,7 +34,7 @@ class Failure_search {
       if (!particle) continue;
       const oracle::Case<D> motion = scene.motion_of(*particle, way.to);
       for (const Kernel<D>& kernel : kernels_)
-        if (!kernel.is_exact) walk(scene, kernel, *particle, motion);
+        if (!kernel.is_exact && kernel.policy) walk(scene, kernel, *particle, motion);
     }
   }
 

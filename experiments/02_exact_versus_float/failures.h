@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Records of failures, for `cellwalk query --replay-failure`: the first of each sort that each rounded kernel
-// makes.
+// of that command makes.
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_FAILURES_H
 
@@ -13,6 +13,7 @@
 namespace cellwalk::exact_float {
 
 /// Writes the motion of a particle in a scene.
+/// \pre `cellwalk query` has the kernel
 template <int D>
 void write_failure(const std::filesystem::path& path, const Scene<D>& scene, const Kernel<D>& kernel,
                    const Particle<D>& particle, const Point<D>& to, const std::string& note) {

@@ -119,8 +119,9 @@ class Flight_trial {
     if (++flown_.escapes == 1) {
       flown_.first_escape = flown_.moves;
       const std::string name = fmt::format("escape_{}d_{}", D, kernel_.name);
-      write_failure(folder_ / (name + ".json"), scene_, kernel_, f.particle, to,
-                    fmt::format("{}: escapes at move {}", kernel_.name, flown_.moves));
+      if (kernel_.policy)
+        write_failure(folder_ / (name + ".json"), scene_, kernel_, f.particle, to,
+                      fmt::format("{}: escapes at move {}", kernel_.name, flown_.moves));
       if constexpr (D == 2) write_picture(name, f, to);
     }
     f.particle = start();
@@ -158,13 +159,11 @@ void write_row(io::Csv_writer& table, int dimension, const char* kernel, const F
   constexpr double million = 1e6;
   const auto interval = experiments::confidence_interval(f.escapes, f.moves);
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  table.row(
-      dimension, kernel, f.moves, f.first_escape ? static_cast<double>(f.first_escape) : nothing, f.escapes,
-      million * static_cast<double>(f.escapes) / static_cast<double>(f.moves), million * interval.low,
-      million * interval.high, f.contacts, f.held, total(f.tally), wrong(f.tally),
-      f.tally[static_cast<std::size_t>(Outcome::false_contact)],
-      f.tally[static_cast<std::size_t>(Outcome::stuck)] + f.tally[static_cast<std::size_t>(Outcome::lost)],
-      f.energy);
+  const Tally& t = f.tally;
+  table.row(dimension, kernel, f.moves, f.first_escape ? static_cast<double>(f.first_escape) : nothing,
+            f.escapes, million * static_cast<double>(f.escapes) / static_cast<double>(f.moves),
+            million * interval.low, million * interval.high, f.contacts, f.held, f.energy, total(t), wrong(t),
+            t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9], t[10]);
 }
 
 }  // namespace
@@ -177,10 +176,11 @@ Exact_summary run_flights(const Run_options& options) {
                             : Flight_trial<3>(in_space[i - kernel_count], options).run(options.count);
   });
   experiments::gather_files(options.folder, "escape_");
-  io::Csv_writer table(
-      options.folder / "flights.csv",
-      {"dimension", "kernel", "moves", "first_escape", "escapes", "escapes_per_million", "low", "high",
-       "contacts", "held", "walks", "wrong", "false_contact", "stuck_or_lost", "energy"});
+  std::vector<std::string> columns{
+      "dimension", "kernel", "moves",  "first_escape", "escapes", "escapes_per_million", "low", "high",
+      "contacts",  "held",   "energy", "motions",      "wrong"};
+  columns.insert(columns.end(), outcome_names.begin() + 1, outcome_names.end());
+  io::Csv_writer table(options.folder / "flights.csv", columns);
   Exact_summary summary;
   for (std::size_t i = 0; i < flown.size(); ++i) {
     const auto& kernel = in_plane[i % kernel_count];

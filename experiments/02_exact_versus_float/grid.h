@@ -34,6 +34,8 @@ inline std::vector<Grid_point> all_points() {
   for (int e = 0; e <= 16; e += 2) points.push_back({"aspect", std::ldexp(1.0, e), {.aspect = e}});
   for (const double turn : {0.0, 0x1p-12, 0x1p-8, 0x1p-5, 0x1p-3, 0x1p-2, 0x1p-1})
     points.push_back({"rotation", turn, {.turn = turn}});
+  for (const double turn : {0x1p-12, 0x1p-5, 0x1p-2, 0x1p-1})
+    points.push_back({"rounded", turn, {.turn = turn, .is_rounded = true}});
   for (int e = -6; e <= 4; e += 2)
     points.push_back({"length", std::ldexp(1.0, e), {.length = std::ldexp(1.0, e), .is_wide = true}});
   return points;

@@ -6,7 +6,7 @@
 #   experiments/02_exact_versus_float/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--threads N] [--no-build]
 #                                               [--long] [--resume]
 #
-# What the options do is said in experiments/common/run_options.sh. --quick takes half a minute, the full run about 40. --long: 10^8 walks
+# With CELLWALK_TEST_DATA, a folder of public meshes, the full run walks in two of them, too. What the options do is said in experiments/common/run_options.sh. --quick takes half a minute, the full run about 40. --long: 10^8 walks
 # and 10^7 sweeps, of the default kernel alone. --resume: goes on where a run with the same options was stopped.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -38,7 +38,10 @@ elif $long; then
   parts=(--part walks --part sweeps)
   sizes=(--kernel exact --motions 1000000 --sweeps 420000)
 else
-  sizes=(--motions 100000 --sweeps 42000 --moves 100000 --timed 5000)
+  sizes=(--motions 20000 --sweeps 8400 --moves 100000 --timed 5000)
+  if [ -n "${CELLWALK_TEST_DATA:-}" ]; then
+    sizes+=(--mesh "$CELLWALK_TEST_DATA/tet/liver.msh" --mesh "$CELLWALK_TEST_DATA/tet/rod.msh")
+  fi
 fi
 "$build/experiments/02_exact_versus_float/exact_versus_float" "${parts[@]}" "${sizes[@]}" "${resume[@]}" --out "$out" \
   --threads "$threads" --commit "$commit"

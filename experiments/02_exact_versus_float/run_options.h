@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "common/kept_counts.h"
 #include "kernels.h"
@@ -15,9 +16,10 @@ namespace cellwalk::exact_float {
 struct Run_options {
   std::filesystem::path folder;  ///< must exist
   std::uint64_t seed = 1;
-  std::uint64_t count = 0;                   ///< motions or sweeps at each point of the grid
-  std::bitset<kernel_count> kernels{~0ull};  ///< those that walk; of failures and times all do
-  experiments::Kept_counts* kept = nullptr;  ///< of points of the grid; must outlive the run
+  std::uint64_t count = 0;                      ///< motions or sweeps at each point of the grid
+  std::bitset<kernel_count> kernels{~0ull};     ///< those that walk; of failures and times all do
+  experiments::Kept_counts* kept = nullptr;     ///< of points of the grid; must outlive the run
+  std::vector<std::filesystem::path> meshes{};  ///< walked in, beside the worlds of the grid
 };
 
 /// What the exact kernels did.

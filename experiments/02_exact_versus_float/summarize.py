@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import plots  # noqa: E402
-from tables import EXACT, ROUNDED, read_rows, share, table, unique  # noqa: E402
+from tables import EXACT, ROUNDED, per_million, read_rows, share, table, unique  # noqa: E402
 
 LABELS = {
     "degeneracy": "distance of the target from a degenerate position (ulp)",
@@ -22,13 +22,33 @@ LABELS = {
     "offset": "distance of the world from the origin (cells)",
     "aspect": "aspect ratio of the cells",
     "rotation": "rotation of the lattice (degrees)",
+    "rounded": "rotation of a lattice whose points are rounded (degrees)",
     "length": "length of a motion (cells)",
+}
+
+# How walks fail, as a user meets it: columns of walks.csv and flights.csv.
+CLASSES = {
+    "missed wall": ["missed_wall"],
+    "false wall": ["false_contact"],
+    "wrong cell": ["wrong_cell", "illegal_way"],
+    "lost": ["stuck", "lost"],
+    "only time or kind": ["wrong_time", "wrong_kind", "wrong_wall", "wrong_dimension"],
+}
+# Motions of one sort: of walks.csv, by variable and value; those of flights.csv have no variable.
+POPULATIONS = {
+    "exactly degenerate": lambda variable, value: variable == "degeneracy" and float(value) == 0,
+    "1 to 2^16 ulp beside": lambda variable, value: variable == "degeneracy" and 1 <= float(value) <= 2 ** 16,
+    "2^20 ulp beside or more": lambda variable, value: variable == "degeneracy" and float(value) >= 2 ** 20,
+    "varied worlds": lambda variable, value: variable in ("scale", "offset", "aspect", "rotation", "length"),
+    "rounded worlds": lambda variable, value: variable == "rounded",
+    "meshes": lambda variable, value: variable == "mesh",
+    "rounded constructions": lambda variable, value: variable is None,
 }
 
 
 def place(variable, value):
     """Where a value stands on the logarithmic axis; 0 stands to the left of all others."""
-    if variable == "rotation":
+    if variable in ("rotation", "rounded"):
         return math.degrees(2 * math.atan(value)) if value else 2.0 ** -8
     if value == 0:
         return 2.0 ** -4
@@ -41,7 +61,7 @@ def tics(variable, values):
     for value in values:
         if value == 0:
             label = "0"
-        elif variable == "rotation":
+        elif variable in ("rotation", "rounded"):
             label = f"{place(variable, value):.2g}"
         else:
             label = f"2^{{{round(math.log2(value))}}}"
@@ -69,8 +89,7 @@ def walk_plot(folder, rows, dimension, variable):
 def sweep_plot(folder, rows, dimension):
     rows = [r for r in rows if r["dimension"] == dimension]
     shown = {"triangle": "complete sweep (upper bound)", "three_segments": "three segments, exact",
-             "walks_double": "walks, double", "walks_double_1e-9": "walks, double_1e-9",
-             "walks_double_1e-6": "walks, double_1e-6", "walks_float": "walks, float"}
+             **{f"walks_{k}": f"walks, {k}" for k in ROUNDED if k != "simple_cartesian"}}
     series = {}
     for method, label in shown.items():
         series[label] = [(place("degeneracy", float(r["value"])), *(
@@ -209,6 +228,20 @@ def escape_plots(folder):
     return drawn
 
 
+def failure_table(rows, dimension):
+    """Failures per million motions by class, of each kernel in each population; the exact kernels together."""
+    lines = []
+    for population, is_in in POPULATIONS.items():
+        here = [r for r in rows if r["dimension"] == dimension and is_in(r.get("variable"), r.get("value"))]
+        for name, kernels in [("exact kernels", EXACT), *((k, [k]) for k in ROUNDED)]:
+            mine = [r for r in here if r["kernel"] in kernels]
+            motions = sum(int(r["motions"]) for r in mine)
+            if motions:
+                lines.append([population, name, f"{motions:,}",
+                              *(per_million(sum(int(r[c]) for r in mine for c in columns), motions) for columns in CLASSES.values())])
+    return table(["motions", "kernel", "number", *CLASSES], lines, names=2)
+
+
 def walk_tables(rows):
     text = ""
     for dimension in unique(r["dimension"] for r in rows):
@@ -218,7 +251,7 @@ def walk_tables(rows):
         for variable, value in unique((r["variable"], r["value"]) for r in here):
             found = {r["kernel"]: r for r in here if (r["variable"], r["value"]) == (variable, value)}
             any_row = next(iter(found.values()))
-            lines.append([variable, f"{float(value):.6g}", any_row["motions"], share(any_row["degenerate"], any_row["motions"]),
+            lines.append([variable, value if variable == "mesh" else f"{float(value):.6g}", any_row["motions"], share(any_row["degenerate"], any_row["motions"]),
                           sum(int(found[k]["wrong"]) for k in EXACT)]
                          + [share(found[k]["wrong"], found[k]["motions"]) for k in ROUNDED])
         text += table(["variable", "value", "motions", "degenerate", "wrong by exact kernels", *ROUNDED], lines, names=2)
@@ -251,6 +284,9 @@ def main():
     folder = Path(sys.argv[1])
     text = "# Exact versus float: results\n"
     drawn = True
+    judged = [r for name in ("walks.csv", "flights.csv") if (folder / name).exists() for r in read_rows(folder / name)]
+    for dimension in unique(r["dimension"] for r in judged):
+        text += f"\n## Failures in {dimension}D per million motions (95 %)\n\n" + failure_table(judged, dimension)
     if (folder / "walks.csv").exists():
         walks = read_rows(folder / "walks.csv")
         text += walk_tables(walks)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <string>
 
 #include "common/confidence.h"
 #include "common/seeds.h"
@@ -22,6 +23,8 @@ namespace {
 
 /// Motions in one world; then another one is made.
 constexpr std::uint64_t motions_per_world = 250;
+/// Motions in one copy of a mesh, which makes its oracle anew.
+constexpr std::uint64_t motions_per_mesh = 2500;
 
 struct Counts {
   std::uint64_t motions = 0, degenerate = 0, blocked = 0;
@@ -46,15 +49,15 @@ bool is_degenerate(const oracle::Trace& trace) {
                      [](const oracle::Incidence& i) { return i.first < i.last; });
 }
 
-template <int D>
-Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t motions,
-                     const std::bitset<kernel_count>& walking) {
-  Random random(seed);
-  const Scene<D> scene(make_world<D>(setting, seed));
+/// Walks motions in a scene by each kernel.
+/// \param next makes a motion
+template <int D, class Next>
+Counts walk_in(const Scene<D>& scene, std::uint64_t motions, const std::bitset<kernel_count>& walking,
+               Random& random, const Next& next) {
   const auto tested = kernels<D>();
   Counts counts;
   while (counts.motions < motions) {
-    const Motion<D> way = make_motion(scene.world, setting, random);
+    const Motion<D> way = next();
     const auto particle = scene.particle_at(way.from, random);
     if (!particle) continue;
     const oracle::Case<D> motion = scene.motion_of(*particle, way.to);
@@ -74,47 +77,74 @@ Counts walk_in_world(const Setting& setting, std::uint64_t seed, std::uint64_t m
   return counts;
 }
 
-template <int D>
-Counts walk_at(const Grid_point& point, const Run_options& options) {
-  const std::uint64_t worlds = (options.count + motions_per_world - 1) / motions_per_world;
-  const auto counts = experiments::shared_trials(worlds, [&](std::uint64_t w) {
-    const std::uint64_t seed = experiments::part_seed(
-        options.seed, fmt::format("walks {} {} {}", D, point.variable, point.value), w);
-    return walk_in_world<D>(point.setting, seed,
-                            std::min(motions_per_world, options.count - w * motions_per_world),
-                            options.kernels);
+/// Walks `count` motions in worlds of so many motions each.
+/// \param walk (seed, motions) counts in a world
+template <class Walk>
+Counts walk_in_worlds(const std::string& name, std::uint64_t per_world, const Run_options& options,
+                      const Walk& walk) {
+  return options.kept->of<Counts>(name, [&] {
+    const std::uint64_t worlds = (options.count + per_world - 1) / per_world;
+    const auto counts = experiments::shared_trials(worlds, [&](std::uint64_t w) {
+      return walk(experiments::part_seed(options.seed, name, w),
+                  std::min(per_world, options.count - w * per_world));
+    });
+    Counts sum;
+    for (const Counts& c : counts) sum += c;
+    return sum;
   });
-  Counts sum;
-  for (const Counts& c : counts) sum += c;
-  return sum;
 }
 
 template <int D>
-void walk_dimension(const Run_options& options, io::Csv_writer& table, Exact_summary& summary) {
-  const auto tested = kernels<D>();
-  for (const Grid_point& point : all_points()) {
-    const Counts counts =
-        options.kept->of<Counts>(fmt::format("walks {}D {} {}", D, point.variable, point.value),
-                                 [&] { return walk_at<D>(point, options); });
+Counts walk_at(const Grid_point& point, const Run_options& options) {
+  return walk_in_worlds(fmt::format("walks {} {} {}", D, point.variable, point.value), motions_per_world,
+                        options, [&](std::uint64_t seed, std::uint64_t motions) {
+                          Random random(seed);
+                          const Scene<D> scene(make_world<D>(point.setting, seed));
+                          return walk_in(scene, motions, options.kernels, random,
+                                         [&] { return make_motion(scene.world, point.setting, random); });
+                        });
+}
+
+Counts walk_in_mesh(const std::filesystem::path& file, const Run_options& options) {
+  const Mesh_world mesh = read_mesh_world(file);
+  return walk_in_worlds(fmt::format("walks 3 mesh {}", file.filename().string()), motions_per_mesh, options,
+                        [&](std::uint64_t seed, std::uint64_t motions) {
+                          Random random(seed);
+                          World<3> world;
+                          world.soup = mesh.soup;
+                          const Scene<3> scene(std::move(world));
+                          return walk_in(scene, motions, options.kernels, random,
+                                         [&] { return make_motion(mesh, random); });
+                        });
+}
+
+/// The rows of one value of a variable.
+struct Walk_table {
+  io::Csv_writer csv;
+  Exact_summary summary{};
+
+  template <class Value>
+  void add(int dimension, const std::string& variable, const Value& value, const Counts& counts,
+           const std::bitset<kernel_count>& walking) {
+    const auto tested = kernels<3>();
     summary.motions += counts.motions;
+    fmt::print("walks {}D {} {}: {} motions", dimension, variable, value, counts.motions);
     for (std::size_t k = 0; k < kernel_count; ++k) {
-      if (!options.kernels[k]) continue;
+      if (!walking[k]) continue;
       const Tally& t = counts.tallies[k];
       const auto interval = experiments::confidence_interval(wrong(t), total(t));
-      table.row(D, point.variable, point.value, tested[k].name, counts.motions, counts.degenerate,
-                counts.blocked, wrong(t), interval.low, interval.high, t[1], t[2], t[3], t[4], t[5], t[6],
-                t[7], t[8], t[9], t[10]);
+      csv.row(dimension, variable, value, tested[k].name, counts.motions, counts.degenerate, counts.blocked,
+              wrong(t), interval.low, interval.high, t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9],
+              t[10]);
+      fmt::print(", {} {} wrong", tested[k].name, wrong(t));
       if (!tested[k].is_exact) continue;
       summary.by_exact += total(t);
       summary.wrong += wrong(t);
     }
-    fmt::print("walks {}D {} {}: {} motions", D, point.variable, point.value, counts.motions);
-    for (std::size_t k = 0; k < kernel_count; ++k)
-      if (options.kernels[k]) fmt::print(", {} {} wrong", tested[k].name, wrong(counts.tallies[k]));
     fmt::print("\n");
     std::fflush(stdout);
   }
-}
+};
 
 }  // namespace
 
@@ -122,12 +152,15 @@ Exact_summary run_walks(const Run_options& options) {
   std::vector<std::string> columns{"dimension",  "variable", "value", "kernel", "motions",
                                    "degenerate", "blocked",  "wrong", "low",    "high"};
   columns.insert(columns.end(), outcome_names.begin() + 1, outcome_names.end());
-  io::Csv_writer table(options.folder / "walks.csv", columns);
-  Exact_summary summary;
-  walk_dimension<2>(options, table, summary);
-  walk_dimension<3>(options, table, summary);
-  table.commit();
-  return summary;
+  Walk_table table{{options.folder / "walks.csv", columns}};
+  for (const Grid_point& point : all_points())
+    table.add(2, point.variable, point.value, walk_at<2>(point, options), options.kernels);
+  for (const Grid_point& point : all_points())
+    table.add(3, point.variable, point.value, walk_at<3>(point, options), options.kernels);
+  for (const auto& file : options.meshes)
+    table.add(3, "mesh", file.filename().string(), walk_in_mesh(file, options), options.kernels);
+  table.csv.commit();
+  return table.summary;
 }
 
 }  // namespace cellwalk::exact_float

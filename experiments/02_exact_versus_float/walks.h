@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walks of every kernel over the grid, judged by the oracle: walks.csv.
+// Walks of every kernel over the grid, and in meshes, judged by the oracle: walks.csv.
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WALKS_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WALKS_H
 

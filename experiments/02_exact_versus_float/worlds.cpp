@@ -45,7 +45,7 @@ Lattice_map<D> lattice_map(const Setting& setting) {
   map.columns = rotation_columns(setting.turn, map.columns);
   for (int i = 0; i < D; ++i)
     for (double& x : map.columns[i])
-      x = std::ldexp(rounded<D>(x), setting.scale - (i == 0 ? setting.aspect : 0));
+      x = std::ldexp(setting.is_rounded ? x : rounded<D>(x), setting.scale - (i == 0 ? setting.aspect : 0));
   if (setting.offset >= 0) map.origin.fill(std::ldexp(1.0, setting.offset + setting.scale));
   return map;
 }
@@ -53,7 +53,13 @@ Lattice_map<D> lattice_map(const Setting& setting) {
 template <int D>
 World<D> make_world(const Setting& setting, std::uint64_t seed) {
   auto options = mixed_lattice_world<D>(seed);
-  options.map = lattice_map<D>(setting);
+  const Lattice_map<D> map = lattice_map<D>(setting);
+  if (setting.is_rounded) {
+    options.box_share = options.prism_share = options.star_share = options.merge_share = 0;
+    options.simplex_share = 1;
+  } else {
+    options.map = map;
+  }
   options.cells.fill(4);
   int extent = 4;  // log2 of a bound of coordinates, in cells
   if (setting.is_wide) {
@@ -62,7 +68,10 @@ World<D> make_world(const Setting& setting, std::uint64_t seed) {
     extent = 6;
   }
   const double unit = std::ldexp(1.0, std::max(extent, setting.offset + 1) - 53 + setting.scale);
-  return {lattice_world(options), options.map, options.cells, unit};
+  World<D> world{lattice_world(options), map, options.cells, unit};
+  if (setting.is_rounded)
+    for (Point<D>& p : world.soup.points) p = map(p);
+  return world;
 }
 
 namespace {

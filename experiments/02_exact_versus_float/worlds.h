@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The worlds of the experiment: lattices full of degeneracies, placed where one likes, every coordinate
-// exactly a double.
+// exactly a double, or rounded to one; and meshes.
 #ifndef CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 #define CELLWALK_EXPERIMENTS_EXACT_VERSUS_FLOAT_WORLDS_H
 
@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <vector>
 
 namespace cellwalk::exact_float {
 
@@ -24,6 +26,9 @@ struct Setting {
   double turn = 0.25;  ///< the lattice is turned by an angle; tangent of its half
   double length = 1;   ///< of a motion, in cells, along the longest axis of the lattice
   bool is_wide = false;  ///< a large world with few walls, for long motions
+  /// The lattice is turned by the exact matrix, and its points are rounded to doubles. All cells are then
+  /// simplices, as facets of more corners would not stay planar.
+  bool is_rounded = false;
 };
 
 /// A lattice of cubes (squares) of mixed shapes with walls, membranes, solid and missing cells.
@@ -35,7 +40,7 @@ struct World {
   double unit = 0;  ///< one ulp of the largest coordinates in it
 };
 
-/// Where a setting places the lattice.
+/// Where a setting places the lattice; rounded points of it are the images that the map computes.
 template <int D>
 Lattice_map<D> lattice_map(const Setting& setting);
 
@@ -53,6 +58,19 @@ struct Motion {
 };
 template <int D>
 Motion<D> make_motion(const World<D>& world, const Setting& setting, Random& random);
+
+/// A mesh of tetrahedra from a file, with the neighbours of its cells.
+struct Mesh_world {
+  Cell_soup<3> soup;
+  std::vector<std::uint32_t> opposite;  ///< half-facets of neighbours, as Gluing has them
+  std::vector<std::uint32_t> cell_of;   ///< of each half-facet
+};
+/// \throw Error(input) for a file without cells in space
+Mesh_world read_mesh_world(const std::filesystem::path& file);
+
+/// From a vertex, an edge, a facet or the inside of a cell to one of a cell nearby, or past it; points of
+/// edges and facets are rounded.
+Motion<3> make_motion(const Mesh_world& world, Random& random);
 
 }  // namespace cellwalk::exact_float
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Degenerate motions in degenerate worlds under every kernel, judged by the oracle; and the two touch
-// policies.
+// Degenerate motions in degenerate worlds under every kernel of `cellwalk query`, judged by the oracle; and
+// the two touch policies.
 //
 //   degenerate_worlds -o DIR [--motions N] [--seed S] [--threads N] [--commit NAME]
 #include <cellwalk/edge/sweep.h>
@@ -101,6 +101,7 @@ Counts walk_in_world(const Family& family, std::uint64_t seed, std::uint64_t mot
     counts.blocked += is_blocked;
     counts.either += !is_blocked && !is_free;
     for (std::size_t k = 0; k < kernel_count; ++k) {
+      if (!kernels[k].policy) continue;
       std::vector<Cell> visited;
       Walk_counts ignored;
       const auto result =
@@ -147,6 +148,7 @@ void run_dimension(std::uint64_t seed, std::uint64_t motions, Tables& tables) {
     tables.touches.row(D, world, placement, motion, counts.motions, counts.blocked, counts.either,
                        counts.stops, counts.wrong_touches);
     for (std::size_t k = 0; k < kernel_count; ++k) {
+      if (!kernels[k].policy) continue;
       const Tally& t = counts.tallies[k];
       const auto interval = experiments::confidence_interval(wrong(t), total(t));
       tables.walks.row(D, world, placement, motion, kernels[k].name, counts.motions, counts.blocked, wrong(t),

@@ -12,7 +12,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import plots  # noqa: E402
-from tables import EXACT, ROUNDED, read_rows, share, table, unique  # noqa: E402
+import tables  # noqa: E402
+from tables import OF_EXPERIMENT_02, read_rows, share, table, unique  # noqa: E402
+
+EXACT, ROUNDED = ([k for k in kernels if k not in OF_EXPERIMENT_02] for kernels in (tables.EXACT, tables.ROUNDED))
 
 PLACEMENTS = ["integer", "turned"]
 FILLS = [1, 2, 4, 6]  # patterns of gnuplot that differ in print

@@ -95,13 +95,22 @@ TEST(Orientation, ToleranceIsOfTheDeterminant) {
     return decltype(kernel)::orientation(counts, Point<2>{0, 0}, Point<2>{0.25, 0}, Point<2>{0, height});
   };
   for (const int side : {1, -1}) {
-    EXPECT_EQ(sign_at(Tolerant<6>{}, side * 4.1e-6), side);
-    EXPECT_EQ(sign_at(Tolerant<6>{}, side * 3.9e-6), 0);
-    EXPECT_EQ(sign_at(Tolerant<9>{}, side * 3.9e-6), side);
-    EXPECT_EQ(sign_at(Tolerant<9>{}, side * 3.9e-9), 0);
+    EXPECT_EQ(sign_at(Tolerant{}, side * 4.1e-9), side);
+    EXPECT_EQ(sign_at(Tolerant{}, side * 3.9e-9), 0);
+    EXPECT_EQ(sign_at(Scale_free{}, side * 3.9e-9), side);
     EXPECT_EQ(sign_at(Unfiltered{}, side * 3.9e-9), side);
   }
-  EXPECT_EQ(counts.orientations, 10u);
+  EXPECT_EQ(counts.orientations, 8u);
+}
+
+TEST(Orientation, AToleranceInUlpDoesNotDependOnTheScale) {
+  Predicate_counts counts;
+  for (const double scale : {0x1p-100, 1.0, 0x1p100})
+    for (const int ulps : {0, 30, 34}) {  // the terms are 1 and 1 + ulps * u: their sum times 16 u is 32 u
+      const Point<2> q{scale, scale}, r{scale, scale * (1 + ulps * 0x1p-53)};
+      EXPECT_EQ(Scale_free::orientation(counts, Point<2>{0, 0}, q, r), ulps == 34) << scale << " " << ulps;
+      EXPECT_EQ(Double::orientation(counts, Point<2>{0, 0}, q, r), ulps != 0) << scale << " " << ulps;
+    }
 }
 
 TEST(Orientation, IsExactNearDependence) {

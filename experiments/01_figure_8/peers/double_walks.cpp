@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walks in plain doubles, without certificates of a body and without any contact. An edge whose ends are in
-// one cell needs no walk; any other is walked anew from the cell of p.
+// Walks in plain doubles, without any contact. An edge whose ends are in one cell needs no walk; any other is
+// walked anew from the cell of p.
 //
 //   double_walk     over a table of hexahedra: six planes and six neighbours a cell
+//   double_regions  the same, with a box free of walls for each body: in double_regions.cpp
 //   library_double  the library's walk with rounded signs (policy Double, strategy exit_rule)
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/walk.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -17,24 +17,17 @@
 #include <vector>
 
 #include "families.h"
+#include "hexahedra.h"
 #include "replay.h"
 
 namespace cellwalk::figure_8 {
-namespace {
-
-constexpr std::size_t faces = 6;
-
-/// A hexahedron: a plane of outward normal for each facet, lane by lane, and what is behind it.
-struct Hexahedron {
-  std::array<double, faces> x, y, z, offset;
-  std::array<std::uint32_t, faces> neighbour;  ///< no_facet: a wall
-};
 
 std::vector<Hexahedron> hexahedra(const Grid_world& world) {
   const Cell_soup<3>& soup = world.soup;
   std::vector<std::uint32_t> cell_of(soup.facet_count());
   for (std::uint32_t c = 0; c < soup.cell_count(); ++c)
     for (std::uint32_t f = soup.cell_begin[c]; f < soup.cell_begin[c + 1]; ++f) cell_of[f] = c;
+  constexpr std::size_t faces = Hexahedron::faces;
   std::vector<Hexahedron> table(soup.cell_count());
   for (std::size_t c = 0; c < table.size(); ++c) {
     if (soup.cell_begin[c + 1] - soup.cell_begin[c] != faces)
@@ -56,6 +49,8 @@ std::vector<Hexahedron> hexahedra(const Grid_world& world) {
   return table;
 }
 
+namespace {
+
 class Double_walk {
  public:
   static constexpr unsigned bits = segment_bits;
@@ -73,51 +68,10 @@ class Double_walk {
   template <class Counter>
   unsigned vertex(std::size_t body, std::size_t v, const Point<3>* positions, const Point<3>& target,
                   Counter& counter) {
-    std::uint32_t* const cells = cells_.data() + body * trace_vertices;
-    std::uint32_t cell = cells[v];
-    const unsigned blocked = !walk(cell, positions[v], target, counter);
-    const Point<3>& p = blocked ? positions[v] : target;
-    if (blocked) cell = cells[v];
-    unsigned answer = blocked;
-    for (std::size_t k = 0; k < trace_edges; ++k) {
-      const std::size_t q = trace_neighbour(v, k);
-      std::uint32_t end = cell;
-      if (end != cells[q]) answer |= static_cast<unsigned>(!walk(end, p, positions[q], counter)) << (k + 1);
-    }
-    if (!answer) cells[v] = cell;
-    return answer;
+    return walk_vertex(*table_, cells_.data() + body * trace_vertices, v, positions, target, counter);
   }
 
  private:
-  /// Walks from a, in the cell, to b. False at a wall; else the cell is that of b.
-  template <class Counter>
-  bool walk(std::uint32_t& cell, const Point<3>& a, const Point<3>& b, Counter& counter) const {
-    constexpr int longest = 1000;  // rounded signs may walk in circles
-    counter.walks();
-    for (int step = 0; step < longest; ++step) {
-      const Hexahedron& h = (*table_)[cell];
-      std::array<double, faces> side;
-      for (std::size_t i = 0; i < faces; ++i)
-        side[i] = h.x[i] * b[0] + h.y[i] * b[1] + h.z[i] * b[2] - h.offset[i];
-      double first = 2;  // of the parameters at which facets are passed
-      std::size_t exit = faces;
-      for (std::size_t i = 0; i < faces; ++i) {
-        if (!(side[i] > 0)) continue;
-        const double start = h.x[i] * a[0] + h.y[i] * a[1] + h.z[i] * a[2] - h.offset[i];
-        const double t = start / (start - side[i]);
-        if (t < first) {
-          first = t;
-          exit = i;
-        }
-      }
-      if (exit == faces) return true;
-      if (h.neighbour[exit] == no_facet) return false;
-      cell = h.neighbour[exit];
-      counter.crossings();
-    }
-    return false;
-  }
-
   std::shared_ptr<std::vector<Hexahedron>> table_;
   const Grid_world* world_;
   std::vector<std::uint32_t> cells_;

@@ -33,6 +33,7 @@ std::vector<Family> families() {
   std::vector<Family> all{{"bounds", "", add_bounds},
                           {"cellwalk", CELLWALK_VERSION, add_cellwalk_peers},
                           {"walks in doubles", "", add_double_walks},
+                          {"walks in doubles with regions", "", add_double_regions},
                           {"walk on the map", CELLWALK_VERSION, add_map_walk},
                           {"cgal", CGAL_VERSION_STR, add_cgal_peers}};
 #ifdef CELLWALK_BULLET_FLOAT

@@ -12,7 +12,8 @@ namespace cellwalk::figure_8 {
 
 void add_bounds(const Grid_world& world, Peers& peers);  ///< reading and writing; a bound that knows the grid
 void add_double_walks(const Grid_world& world, Peers& peers);  ///< walks in doubles: plain, and the library's
-void add_map_walk(const Grid_world& world, Peers& peers);      ///< the paper's: from dart to dart of the map
+void add_double_regions(const Grid_world& world, Peers& peers);  ///< plain walks with boxes free of walls
+void add_map_walk(const Grid_world& world, Peers& peers);  ///< the paper's: from dart to dart of the map
 void add_cellwalk_peers(const Grid_world& world, Peers& peers);
 void add_cgal_peers(const Grid_world& world, Peers& peers);
 void add_embree_peers(const Grid_world& world, Peers& peers);

@@ -4,7 +4,8 @@
 //   Lazy         CGAL's lazy exact kernel: always right; the reference for the cost of exactness
 //   Unfiltered   rational arithmetic for every sign, without a filter: always right
 //   Double       the sign of the rounded determinant: wrong near degeneracies
-//   Tolerant<n>  the same, but 0 within 10^-n
+//   Tolerant     the same, but 0 within 10^-9
+//   Scale_free   the same, but 0 within a share of its terms
 //   Float        the rounded sign in single precision
 #ifndef CELLWALK_KERNEL_POLICIES_H
 #define CELLWALK_KERNEL_POLICIES_H
@@ -66,22 +67,34 @@ struct Double {
   }
 };
 
-/// Rounded signs in double precision that are 0 up to a fixed tolerance, as is common practice. The tolerance
-/// is 10^-Digits, in units of the area (2D) or volume (3D) of the determinant, so it depends on the scale of
-/// the input.
-template <int Digits>
+/// Rounded signs in double precision that are 0 up to a fixed tolerance, as is common practice. It is one of
+/// the area (2D) or volume (3D) of the determinant, so it depends on the scale of the input.
 struct Tolerant {
-  static_assert(Digits == 6 || Digits == 9);
   static constexpr bool is_exact = false;
   static constexpr bool uses_certificates = false;
-  static constexpr double tolerance = Digits == 6 ? 1e-6 : 1e-9;
-  static constexpr const char* name = Digits == 6 ? "double_1e-6" : "double_1e-9";
+  static constexpr double tolerance = 1e-9;
+  static constexpr const char* name = "double_1e-9";
 
   template <class... P>
   static int orientation(Predicate_counts& counts, const P&... points) {
     ++counts.orientations;
     const double value = detail::determinant<double>(points...).value;
     return std::abs(value) <= tolerance ? 0 : detail::sign_of(value);
+  }
+};
+
+/// Rounded signs in double precision that are 0 where rounding may have changed them: within 16 u (u = 2^-53)
+/// of the sum of the sizes of the terms. So they do not depend on the scale of the input.
+struct Scale_free {
+  static constexpr bool is_exact = false;
+  static constexpr bool uses_certificates = false;
+  static constexpr const char* name = "double_16u";
+
+  template <class... P>
+  static int orientation(Predicate_counts& counts, const P&... points) {
+    ++counts.orientations;
+    const auto d = detail::determinant<double>(points...);
+    return std::abs(d.value) <= detail::orientation_error * d.magnitude ? 0 : detail::sign_of(d.value);
   }
 };
 

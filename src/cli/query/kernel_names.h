@@ -15,8 +15,8 @@ inline constexpr std::initializer_list<std::pair<const char*, Kernel_choice>> ke
     {"lazy", Kernel_choice::lazy},
     {"rational", Kernel_choice::rational},
     {"double", Kernel_choice::double_precision},
-    {"double_1e-9", Kernel_choice::double_tolerance_9},
-    {"double_1e-6", Kernel_choice::double_tolerance_6},
+    {"double_1e-9", Kernel_choice::double_tolerance},
+    {"double_16u", Kernel_choice::double_scale_free},
     {"float", Kernel_choice::float_precision}};
 inline constexpr std::initializer_list<std::pair<const char*, Walk_strategy>> strategy_names{
     {"certified", Walk_strategy::certified},

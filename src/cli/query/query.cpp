@@ -94,7 +94,7 @@ void add_move_options(CLI::App& command, Query_options& options) {
   constexpr const char* group = "With --mode move";
   add_choice(command, "--kernel", options.method.kernel, kernel_names,
              "Number policy; those of double and float may miss walls and are for experiments. double_1e-9: "
-             "determinants up to that count as 0")
+             "determinants up to that count as 0; double_16u: up to 16 u of the sum of their terms")
       ->group(group);
   add_choice(command, "--strategy", options.strategy,
              {{"certified", std::optional(Walk_strategy::certified)},

@@ -102,7 +102,7 @@ TEST_F(Query, RefusesEnvironmentsThatAreNotCertified) {
 
 TEST_F(Query, RefusesCertificatesForKernelsWithoutThem) {
   succeed({"generate", "hexes", "--cells", "2", "-o", "env.ovm"});
-  for (const char* kernel : {"lazy", "rational", "double", "double_1e-9", "double_1e-6", "float"})
+  for (const char* kernel : {"lazy", "rational", "double", "double_1e-9", "double_16u", "float"})
     expect_refused(2, moves_header, {"certified", "exact"}, {"--strategy", "certified", "--kernel", kernel});
 }
 
@@ -152,7 +152,7 @@ TEST_F(Query, ExactKernelsStrategiesAndThreadsGiveTheSameAnswers) {
 TEST_F(Query, InexactKernelsAnswerEveryRow) {
   succeed({"generate", "lattice", "--cells", "4", "--rotated", "--scale", "0.125", "-o", "env.ovm"});
   const std::string motions = random_moves(500, 2);
-  for (const char* kernel : {"double", "double_1e-9", "double_1e-6", "float"})
+  for (const char* kernel : {"double", "double_1e-9", "double_16u", "float"})
     EXPECT_EQ(query(motions, {"--kernel", kernel}).size(), 500u);
 }
 

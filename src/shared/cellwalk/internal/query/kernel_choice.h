@@ -14,8 +14,8 @@ enum class Kernel_choice {
   lazy,
   rational,
   double_precision,
-  double_tolerance_9,
-  double_tolerance_6,
+  double_tolerance,
+  double_scale_free,
   float_precision
 };
 
@@ -31,10 +31,10 @@ auto with_kernel(Kernel_choice kernel, Work&& work) {
       return work(Unfiltered{});
     case Kernel_choice::double_precision:
       return work(Double{});
-    case Kernel_choice::double_tolerance_9:
-      return work(Tolerant<9>{});
-    case Kernel_choice::double_tolerance_6:
-      return work(Tolerant<6>{});
+    case Kernel_choice::double_tolerance:
+      return work(Tolerant{});
+    case Kernel_choice::double_scale_free:
+      return work(Scale_free{});
     case Kernel_choice::float_precision:
       break;
   }
