@@ -22,7 +22,7 @@ TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus fl
 # How far a face falls in a step of experiment 03: the bound of its depth over this (face_trials.cpp).
 STEPS_A_BOUND = 64
 # The plots of each experiment that are used, with their width and height in inches and the scale of their type.
-HALF, WIDE = ("4.6in,3.2in", 0.44), ("7in,4.2in", 0.5)
+HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,4.6in", 0.5)
 FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
            "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {},
