@@ -281,6 +281,9 @@ class CollectNumbers(unittest.TestCase):
         self.assertEqual(len(labels), len(set(labels)))
         self.assertLessEqual(set(re.findall(r"\\ref\{([^}]*)\}", REPORT)), set(labels))
 
+    def test_no_proof_is_left_to_the_documentation(self):
+        self.assertNotIn("docs/", REPORT)
+
     def test_a_missing_output_is_named(self):
         for name in ("walks.csv", "manifest.json"):
             (self.root / "exact_versus_float" / name).unlink()
