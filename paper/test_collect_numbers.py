@@ -89,8 +89,9 @@ def real_scenes(folder, scenes=4, rounded=True):
         {"scene": s, "method": m, "margin_steps": margin, "library": library, "exact": exact, "cells": 5000, "moves": 1000, "blocked": 40,
          "missed": 0 if exact else 2, "false": 0 if exact else 3, "step_us_p999": ns, "step_us_max": 2 * ns,
          "ns_per_vertex_move": ns * margin * (1.5 if "finer" in s and library == "cellwalk" else 1)}
-        for s in ("S1a_vessel", "S5_rigid_ring", "S5_rigid_ring_finer_2", "S6_at_rest")[:scenes] for m, (library, exact, ns) in methods.items()
-        for margin in ((1,) if library == "cellwalk" else (1, 2))])
+        for s, of_scene in [*((s, methods) for s in ("S1a_vessel", "S5_rigid_ring", "S5_rigid_ring_finer_2", "S6_at_rest")[:scenes]),
+                            ("T1_thick_05", {"cellwalk_complete": methods["cellwalk_complete"], "cgal_doubles_body": ("cgal", 0, 50)})]
+        for m, (library, exact, ns) in of_scene.items() for margin in ((1,) if library == "cellwalk" else (1, 2))])
 
 
 def moving_walls(folder, own=900):
