@@ -77,4 +77,5 @@ if grep -E "undefined (references|citations)|Citation .* undefined|Reference .* 
   echo "build.sh: the report refers to what is not there" >&2
   exit 1
 fi
-echo "paper: $out/report.pdf"
+page=$(sed -n 's/^\\newlabel{endoftext}{{[^}]*}{\([0-9]*\)}.*/\1/p' report.aux)
+echo "paper: $out/report.pdf, the text without references and appendix ends on page $page"

@@ -19,8 +19,10 @@ TITLES = {"figure_8": "01, figure 8", "exact_versus_float": "02, exact versus fl
           "contact_search": "04, contact searches", "degenerate_worlds": "05, degenerate worlds",
           "real_scenes": "06, real scenes", "moving_walls": "07, moving walls", "scaling": "08, decomposed environments",
           "ablation": "09, ablation"}
+# How far a face falls in a step of experiment 03: the bound of its depth over this (face_trials.cpp).
+STEPS_A_BOUND = 64
 # The plots of each experiment that are used, with their width and height in inches and the scale of their type.
-HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,5.3in", 0.5)
+HALF, WIDE = ("4.6in,3.2in", 0.44), ("8in,4.6in", 0.5)
 FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "small_obstacles": {"missed": HALF, "cost": HALF, "depth": HALF, "floating": HALF},
            "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {},
@@ -30,7 +32,7 @@ METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_t
            ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
            ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
            ("embree_packet_robust", "Embree, robust packets"), ("fcl_boxes", "FCL, segments"), ("cgal_segment", "CGAL, segments"),
-           ("cgal_kept_box", "CGAL, box kept a body"), ("double_walk", "walk in doubles"),
+           ("cgal_kept_box", "CGAL, box kept a body"), ("double_walk", "walk in doubles"), ("map_walk", "walk on the map, three segments"),
            ("unit_cubes", "bound: unit cubes"), ("read_and_write", "bound: reading and writing")]
 
 
@@ -127,6 +129,27 @@ def rigid_cubes(rows):
             f"{span(times['cellwalk_three_segments'])}\\,ns{kept}.")
 
 
+def walk_on_the_map(rows):
+    """What is said of the walk from dart to dart, if it was measured."""
+    times = {m: {r["cells"]: float(r["ns_per_vertex_move"]) for r in rows if r["method"] == m and r["ns_per_vertex_move"]}
+             for m in ("map_walk", "cellwalk_three_segments")}
+    own, tables = times["map_walk"], times["cellwalk_three_segments"]
+    if not own or not all(n in tables for n in own):
+        return ""
+    wrong = sum(int(r["missed"]) + int(r["false"]) for r in rows if r["method"] == "map_walk")
+    return (f" The original method as it is written, from dart to dart of the map with exact predicates and without regions (Section~\\ref{{thewalk}}), takes "
+            f"{span(own.values())}\\,ns, {span([own[n] / tables[n] for n in own])} times as long as three segments over tables, with {count(wrong)} wrong answers.")
+
+
+def memory(rows):
+    """The memory of the structures at the largest size, if it was measured."""
+    of = {r["method"]: r for r in rows if r.get("bytes_per")}
+    own, other = of.get("cellwalk_triangle"), of.get("bullet_swept_box")
+    if not own or not other:
+        return ""
+    return f" Cellwalk's tables take {float(own['bytes_per']):.0f} bytes a cell there, Bullet's hierarchy {float(other['bytes_per']):.0f} a wall triangle."
+
+
 def figure_8(report, folder):
     of_all = read(folder, "figure_8.csv")
     rows = [r for r in of_all if r["trace"].startswith("n_")]
@@ -154,6 +177,8 @@ def figure_8(report, folder):
     report.define("FigEightSteps", count(rows[0]["steps"]))
     report.define("FigEightHeld", held_share(rows))
     report.define("FigEightRigid", rigid_cubes([r for r in of_all if r["trace"].startswith("rigid_n_")]))
+    report.define("FigEightMap", walk_on_the_map(rows))
+    report.define("FigEightMemory", memory([r for r in rows if int(r["cells"]) == sizes[-1]]))
     report.define("FigEightMoves", count(found["cellwalk_triangle", sizes[-1]]["moves"]))
     report.define("FigEightOverDouble", decimal(time("cellwalk_triangle", sizes[-1]) / time("double_walk", sizes[-1]), 2))
     own = [found["cellwalk_triangle", n] for n in sizes]
@@ -263,6 +288,7 @@ def small_obstacles(report, folder):
     report.define("FallsPierced", count(sum(int(r["pierced"]) for r in spikes)))
     report.define("FallsBeyond", count(sum(int(r["beyond_bound"]) for r in spikes)))
     report.define("FallsShare", percent(max(float(r["share_of_bound_max"]) for r in spikes)))
+    report.define("FallsDisplacements", decimal(max(STEPS_A_BOUND * float(r["depth_max"]) / float(r["bound"]) for r in spikes), 2))
     report.define("FallsWithFaces", count(sum(int(r["pierced_with_faces"]) for r in spikes)))
     report.define("FloatingFaces", count(sum(int(r["faces"]) for r in floating)))
     report.define("FloatingWithFaces", count(sum(int(r["passed_with_faces"]) for r in floating)))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """What the report says of experiment 06: macros and tables from its outputs."""
 
+import re
+
 from collect_numbers import count, decimal, escaped, percent, read, span
 
 TITLES = {"R1_pressed": "pressed catheter, vessel", "R2_pressed_aneurysm": "pressed catheter, aneurysm",
@@ -8,6 +10,7 @@ TITLES = {"R1_pressed": "pressed catheter, vessel", "R2_pressed_aneurysm": "pres
           "S3_spheres": "soft spheres, vessel", "S3_aneurysm_spheres": "soft spheres, aneurysm", "S4_soft_ring": "soft ring",
           "S5_rigid_ring": "rigid ring", "S6_at_rest": "bodies at rest", "S7_many": "many hexahedra"}
 RINGS = ("S4_soft_ring", "S5_rigid_ring")
+THICK = r"T\d+_"  # bodies with a radius, of which the report says nothing
 AT_REST = "S6_at_rest"
 CATHETERS = ("R1_pressed", "R2_pressed_aneurysm", "S1a_vessel", "S1b_vessel_fine", "S2_aneurysm")
 LIBRARIES = {"bullet": "Bullet", "fcl": "FCL", "embree": "Embree", "cgal": "CGAL"}
@@ -128,7 +131,7 @@ def with_finer_cells(scenes, own):
 
 
 def collect(report, folder):
-    rows = read(folder, "real_scenes.csv")
+    rows = [r for r in read(folder, "real_scenes.csv") if not re.match(THICK, r["scene"])]
     scenes = {s: [r for r in rows if r["scene"] == s] for s in sorted({r["scene"] for r in rows})}
     lines = []
     for scene, of_scene in scenes.items():
