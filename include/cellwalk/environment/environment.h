@@ -183,7 +183,9 @@ class Environment {
   /// darts is. Vertices may move. Facets that are not sewn are walls. Cells that stay as they are keep their
   /// order, as do points; others follow. Defined, with a function that marks facets, in
   /// <cellwalk/environment/map_edit.h>.
+  /// Bodies that go on are registered again after each edit(): of new names only the last ones are kept.
   /// \param change called with a Map<D>&
+  /// \pre `change` does not edit the environment in another way, nor freeze it
   /// \return the new names of what stays, for all names change
   /// \throw Error(not_certified) with the place or the cell, by its index in the edited map; Error(usage) if
   ///        the environment is frozen; what the user's function throws
