@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -103,6 +104,7 @@ TEST(LccByHand, AnyKernel) {
   walk_through_cubes<Complex_3>();
   walk_through_cubes<Complex<3, CGAL::Epeck>>();
   walk_through_cubes<Complex<3, CGAL::Simple_cartesian<double>>>();
+  walk_through_cubes<Complex<3, CGAL::Simple_cartesian<Rational>>>();
 }
 
 #if CGAL_VERSION_NR >= 1050600000
@@ -232,6 +234,8 @@ TEST(LccByHand, BothSearchesFindTheCornerThatAnEdgeMeets) {
   ASSERT_TRUE(bisected);
   EXPECT_LE(bisected->time, exact->time);
   EXPECT_LT(exact->time - bisected->time, Rational(0x1p-30));
+  // Doubles do not resolve it: the search ends nevertheless.
+  EXPECT_LE(dichotomic_search(walker, p, target, q, 1e-300, counts)->time, exact->time);
   EXPECT_FALSE(dichotomic_search(walker, p, Point_2(1.5, 0.3), q, 0x1p-30, counts));
   EXPECT_FALSE(exhaustive_search(walker, p, Point_2(1.5, 0.3), q, counts));
   // Where a wall stops p itself, both give its contact.
@@ -240,6 +244,32 @@ TEST(LccByHand, BothSearchesFindTheCornerThatAnEdgeMeets) {
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->time, Rational(1) / 2);
   }
+}
+
+TEST(LccByHand, WallAtTheStandingEnd) {
+  // q lies in the cell on the lower left, at the corner (1,0), the moved end above. One passes there to the
+  // lower right only. The facet from (2,0) to (3,0) is a wall in the same line that does not contain q.
+  Complex_2 map;
+  const auto first = map.make_combinatorial_polygon(6);
+  auto d = first;
+  for (const Point_2& x :
+       {Point_2(0, 0), Point_2(1, 0), Point_2(2, 0), Point_2(3, 0), Point_2(3, 1), Point_2(0, 1)}) {
+    map.set_vertex_attribute(d, map.create_vertex_attribute(x));
+    d = map.beta<1>(d);
+  }
+  const auto left = map.make_quadrangle(Point_2(0, -1), Point_2(1, -1), Point_2(1, 0), Point_2(0, 0));
+  const auto right = map.make_quadrangle(Point_2(1, -1), Point_2(2, -1), Point_2(2, 0), Point_2(1, 0));
+  map.sew<2>(map.beta<1>(first), map.beta<1, 1>(right));
+  const Walker<Complex_2> walker(map);
+  ASSERT_FALSE(find_defect(walker));
+  Counts counts;
+  const Point_2 corner(1, 0);
+  const auto check = walker.check_edge({Point_2(1, 0.5), first}, corner, {corner, left}, counts);
+  ASSERT_EQ(check.status, Status::contact);
+  EXPECT_FALSE(check.is_by_vertex);
+  EXPECT_TRUE(map.point(check.contact->wall) == corner ||
+              map.point(map.beta<1>(check.contact->wall)) == corner);
+  EXPECT_EQ(map.point(check.contact->feature), corner);
 }
 
 /// The first defect of a map.
@@ -276,6 +306,19 @@ TEST(LccByHand, DefectsAreFound) {
     map.make_triangle(Point_2(0, 0), Point_2(1, 0), Point_2(0, 1));
     map.make_triangle(Point_2(5, 0), Point_2(5, 1), Point_2(6, 0));
     EXPECT_EQ(defect_of(map), Defect_kind::nonconvex_cell);
+  }
+  {
+    Complex_2 map;
+    map.make_combinatorial_polygon(4);  // without points
+    EXPECT_EQ(defect_of(map), Defect_kind::open_cell);
+  }
+  for (int k = 0; k < 24; ++k) {  // at each dart, since a facet may begin at any of them
+    Complex_3 map;
+    add_cubes(map, 1, 1, 1);
+    auto d = map.darts().begin();
+    std::advance(d, k);
+    map.insert_point_in_cell<1>(d, map.point(d));
+    EXPECT_EQ(defect_of(map), Defect_kind::short_edge);
   }
   const auto hexahedron = [](Complex_3& map, const Point_3& corner) {
     return map.make_hexahedron(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, 0),

@@ -15,6 +15,8 @@ namespace cellwalk {
 template <int D>
 void set_impassable(Map<D>& map, Dart<D> facet, bool wall);
 
+/// Bodies that go on are registered again after each edit: of new names only the last ones are kept.
+/// \pre `change` does not edit the environment in another way, nor freeze it
 template <int D>
 template <class Change>
 Compaction Environment<D>::edit(Change&& change) {

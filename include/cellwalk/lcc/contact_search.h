@@ -44,7 +44,7 @@ auto mean_normal(const Walker<Lcc, Is_wall>& walker, const Signs<Lcc>& signs, Da
 /// last position at which the edge was free, and a temporary particle from there along the edge. The edge is
 /// free at the time found, and blocked no later than `tolerance` after it; obstacles that it met and left
 /// before are not found.
-/// \param tolerance length of the final interval of time
+/// \param tolerance length of the final interval of time, as far as doubles resolve it
 /// \pre 0 < tolerance <= 1; p and q as for Walker::check_edge()
 /// \return the contact: its time as a share of the motion of p, the wall that blocked the edge last, the mean
 ///        normal of the
@@ -71,6 +71,7 @@ std::optional<Contact<Lcc>> dichotomic_search(const Walker<Lcc, Is_wall>& walker
   };
   while (high - low > tolerance) {
     const double middle = low + (high - low) / 2;
+    if (middle == low || middle == high) break;  // neighbouring numbers
     const Edge_check<Lcc> check = walker.check_edge(reached, between(middle), q, counts);
     if (check.status == Status::arrived) {
       low = middle;

@@ -11,7 +11,8 @@
 namespace cellwalk::lcc {
 
 enum class Defect_kind : std::uint8_t {
-  open_cell,        ///< a dart without a neighbour in its cell
+  open_cell,        ///< a dart without a neighbour in its cell, or without a point
+  short_edge,       ///< the ends of an edge coincide (in space)
   flat_facet,       ///< all vertices of the facet are collinear (in the plane: coincide)
   bent_facet,       ///< its vertices do not lie in one plane
   nonconvex_facet,  ///< its polygon has a reflex angle
@@ -41,8 +42,14 @@ class Defect_finder {
 
   /// \pre no dart of the cell is open
   Found find(Dart_of facet, const typename Cells<Lcc>::Darts& facets) const {
-    if (is_flat(facet)) return Defect_kind::flat_facet;
     Found found;
+    if constexpr (D == 3) {
+      cells_.for_each_dart(facet, [&](Dart_of d) {
+        if (cells_.point(d) == cells_.end(d)) found = Defect_kind::short_edge;
+      });
+      if (found) return found;
+    }
+    if (is_flat(facet)) return Defect_kind::flat_facet;
     bool is_flat_cell = true;
     cells_.for_each_point(facets, [&](const auto& x) {
       const int side = signs_.side(facet, x);

@@ -50,7 +50,9 @@ class Marked_walls {
 ///      oriented alike, as they are in maps whose cells were sewn by CGAL.
 ///
 /// The map may be changed between calls by any operation of CGAL that leaves it as required: nothing is
-/// stored but a reference to it, and its orientation. Particles whose dart was removed must be located again.
+/// stored but a reference to it, and its orientation. So make a new walker where that may be another one:
+/// after reverse_orientation(), or for cells made in an empty map. Particles whose dart was removed must be
+/// located again.
 /// Calls only read the map, by beta and points, so that several threads may walk at once; particles_at() and
 /// find_defect() take marks.
 template <class Lcc, class Is_wall = No_inner_walls>
@@ -203,13 +205,20 @@ Walk<Lcc> Walker<Lcc, Is_wall>::walk_along_edge(const Signs& signs, const Partic
   // It arrives on another side of a wall at q.
   walk.status = Status::contact;
   const detail::Places<Lcc> places(signs);
-  const auto place = places.find(walk.dart, q.position);
-  places.for_each_linked(*place, blocks(), [&](const Dart_of& linked) {
-    for (const Dart_of& facet : cells_.facets(linked))
-      if (!walk.contact && is_impassable(facet) && signs.side(facet, q.position) == 0)
-        walk.contact =
-            Contact<Lcc>{Rational(1), place->dimension, facet, place->dart, inner_normal(signs, facet)};
-  });
+  if (const auto place = places.find(walk.dart, q.position))
+    places.for_each_linked(*place, blocks(), [&](const Dart_of& linked) {
+      const auto test = [&](const Dart_of& facet) {
+        if (!walk.contact && is_impassable(facet))
+          walk.contact =
+              Contact<Lcc>{Rational(1), place->dimension, facet, linked, inner_normal(signs, facet)};
+      };
+      if (place->dimension < D - 1)
+        cells_.for_each_facet_at({linked, place->dimension == 0},
+                                 [&](const Dart_of& facet, const Dart_of&) { test(facet); });
+      else
+        test(linked);
+    });
+  if (!walk.contact) walk.status = Status::lost;  // by rounded signs only
   return walk;
 }
 

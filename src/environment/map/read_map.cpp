@@ -225,6 +225,12 @@ class Map_reader {
     soup.points = std::move(points);
     for (std::uint32_t& p : soup.vertices) p = renamed[p];
     for (auto& [vertex, point] : result_.vertices) point = renamed[point];
+    // Vertices without darts go, too.
+    std::erase_if(result_.vertices, [&](const auto& vertex) {
+      if (vertex.second != Result::none) return false;
+      map_.template erase_attribute<0>(vertex.first);
+      return true;
+    });
     renamed.resize(snapshot_.points().size());
     result_.points = std::move(renamed);
   }

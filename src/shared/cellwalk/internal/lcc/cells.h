@@ -71,10 +71,10 @@ class Cells {
   const typename Lcc::Point& point(Dart_of d) const { return map_.point(d); }
   const typename Lcc::Point& end(Dart_of d) const { return map_.point(next(d)); }
 
-  /// True if a dart lacks a neighbour in its cell.
+  /// True if a dart lacks a neighbour in its cell, or a point.
   bool is_open(Dart_of d) const {
     return map_.template is_free<1>(d) || map_.template is_free<0>(d) ||
-           (D == 3 && map_.template is_free<2>(d));
+           (D == 3 && map_.template is_free<2>(d)) || map_.template attribute<0>(d) == Lcc::null_handle;
   }
   /// True if no dart of the cell of d is open.
   bool is_closed(Dart_of d) const {

@@ -36,7 +36,7 @@ namespace detail {
 
 template <class Number>
 Rational to_rational(const Number& x) {
-  if constexpr (std::is_floating_point_v<Number>)
+  if constexpr (std::is_convertible_v<Number, Rational>)
     return Rational(x);
   else
     return Rational(CGAL::exact(x));
@@ -198,9 +198,10 @@ class Signs {
   /// When a motion passes the line of an edge that it meets in one point.
   std::optional<Rational> time_at(const Point& u, const Point& v, const Point& a, const Point& b) const {
     static_assert(D == 3);
+    using Number = typename Lcc::FT;
     // Any plane through the edge that does not contain the motion gives it.
     for (int axis = 0; axis < 3; ++axis) {
-      const auto other = [&](int i) { return i != axis ? u[i] : u[i] == 0 ? u[i] + 1 : u[i] - u[i]; };
+      const auto other = [&](int i) -> Number { return i != axis ? u[i] : Number(CGAL::is_zero(u[i])); };
       const Point beside(other(0), other(1), other(2));
       if (const auto t = root(value(u, v, beside, a), value(u, v, beside, b))) return t;
     }
