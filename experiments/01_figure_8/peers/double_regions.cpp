@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "body_box.h"
+#include "candidates.h"
 #include "families.h"
 #include "hexahedra.h"
 #include "replay.h"
@@ -118,7 +119,7 @@ class Double_regions {
       : table_(std::move(table)), world_(&world), search_(*table_) {}
 
   void prepare(const Trace& trace) {
-    margin_ = region_steps * trace.speed;
+    margin_ = kept_steps * trace.speed;
     cells_.clear();
     for (const Point<3>& x : trace.start_positions) cells_.push_back(world_->cell_at(x));
     bodies_.assign(trace.bodies, {});
@@ -134,20 +135,11 @@ class Double_regions {
       body.has_region = false;
       body.region = Box::nowhere();
     }
-    if (body.wait > 0) {
-      --body.wait;
-      return false;
-    }
     const Box least = body_box(positions, targets);
     counter.boxes();
     body.region = search_.find(cells[0], least, least.enlarged(margin_));
     body.has_region = body.region.contains(least);
-    if (!body.has_region) {
-      body.pause = std::min(2 * body.pause, longest_pause);
-      body.wait = body.pause - 1;
-      return false;
-    }
-    body.pause = 1;
+    if (!body.has_region) return false;
     std::copy_n(positions, trace_vertices, body.registered.begin());
     return true;
   }
@@ -158,15 +150,9 @@ class Double_regions {
   }
 
  private:
-  /// By how much the box of a body is enlarged at most: so many steps at the speed of the trace.
-  static constexpr double region_steps = 20;
-  /// Steps from one search to the next while none finds a region; doubled up to this.
-  static constexpr std::uint32_t longest_pause = 8;
-
   struct Body {
     Box region = Box::nowhere();
     std::array<Point<3>, trace_vertices> registered;  ///< where the cells of the vertices were found
-    std::uint32_t wait = 0, pause = 1;                ///< steps
     bool has_region = false;
   };
 
