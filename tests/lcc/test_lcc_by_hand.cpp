@@ -173,7 +173,7 @@ TEST(LccByHand, MarkedFacetsAreWalls) {
   add_cubes(map, 2, 1, 1);
   const auto mark = map.get_new_mark();
   for (auto it = map.darts().begin(); it != map.darts().end(); ++it)
-    if (!map.is_free<3>(it)) mark_facet(map, it, mark);
+    if (!map.is_free<3>(it) && !map.is_marked(it, mark)) mark_facet(map, it, mark);
   const Walker<Complex_3, Marked_walls<Complex_3>> walker(map, {map, mark});
   EXPECT_FALSE(find_defect(walker));
   Counts counts;
