@@ -59,7 +59,13 @@ void index_map(Map_storage<D>& storage, const Read_map<D>& read, const std::vect
   std::stable_sort(storage.pinched.begin(), storage.pinched.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   assign_half_facets<D>(storage, read.darts, names, slots);
-  check_map(storage);
+  try {
+    check_map(storage);
+  } catch (const Error& error) {
+    throw Error(
+        Error_code::not_certified,
+        std::string("the edited map is sewn wrongly: sew facets whose points agree (") + error.what() + ")");
+  }
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ TEST_F(QueryAnswers, AStartOnAMembraneBelongsToTheSideOnWhichTheMotionGetsFurthe
 }
 
 TEST_F(QueryAnswers, EveryKernelAnswersPlainMotionsAlike) {
-  for (const Kernel_choice kernel : {Kernel_choice::exact, Kernel_choice::lazy, Kernel_choice::rational,
-                                     Kernel_choice::double_precision, Kernel_choice::double_tolerance_6,
-                                     Kernel_choice::double_tolerance_9, Kernel_choice::float_precision}) {
+  for (const Kernel_choice kernel :
+       {Kernel_choice::exact, Kernel_choice::lazy, Kernel_choice::rational, Kernel_choice::double_precision,
+        Kernel_choice::double_tolerance, Kernel_choice::double_scale_free, Kernel_choice::float_precision}) {
     const std::uint64_t before = counts_.walk.walks;
     const auto status = [&](const Point<2>& from, const Point<2>& to) {
       return answer_move(snapshot_, locator_, from, to, Touch::pass, {kernel, Walk_strategy::exit_rule},

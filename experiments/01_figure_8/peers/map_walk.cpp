@@ -40,7 +40,8 @@ class Map_walk {
     particles_.clear();
     for (const Point<3>& x : trace.start_positions) {
       const std::uint32_t cell = world_->cell_at(x);
-      particles_.push_back({to_map_point(x), storage_->dart_of_half_facet[world_->soup.cell_begin[cell]]});
+      particles_.push_back(
+          {to_map_point(x), map_->storage->dart_of_half_facet[world_->soup.cell_begin[cell]]});
     }
     counts_ = {};
   }

@@ -46,10 +46,10 @@ auto mean_normal(const Walker<Lcc, Is_wall>& walker, const Signs<Lcc>& signs, Da
 /// before are not found.
 /// \param tolerance length of the final interval of time, as far as doubles resolve it
 /// \pre 0 < tolerance <= 1; p and q as for Walker::check_edge()
-/// \return the contact: its time as a share of the motion of p, the wall that blocked the edge last, the mean
-///        normal of the
-///         walls around the vertex of the last dart met. That of p itself, with its exact time, if the edge
-///         is free at all times tried before a wall stops p. None if the edge is free at the end.
+/// \return the contact: its time as a share of the motion of p, the wall that blocked the edge last, and the
+///         mean normal of the walls around the vertex of the last dart met. That of p itself, with its exact
+///         time, if the edge is free at all times tried before a wall stops p. None if the edge is free at
+///         the end, or the check of it is lost.
 /// Degenerate cases: positions are rounded where the kernel's numbers are, answers about them are exact.
 /// Cost: log2(1 / tolerance) checks.
 template <class Lcc, class Is_wall>
@@ -94,9 +94,8 @@ std::optional<Contact<Lcc>> dichotomic_search(const Walker<Lcc, Is_wall>& walker
 /// angle at q.
 /// \pre p and q as for Walker::check_edge()
 /// \return the contact: its exact time as a share of the motion of p, the obstacle, and a unit normal
-///        perpendicular to
-///         both edges against the motion. That of p itself where p is blocked. None if the edge is free, or
-///         if no obstacle of these cells lies in the swept triangle: that is the paper's limit.
+///         perpendicular to both edges against the motion. That of p itself where p is blocked. None if the
+///         edge is free, or if no obstacle of these cells lies in the swept triangle: the paper's limit.
 /// Degenerate cases: an obstacle that is only touched counts; at its start the edge meets it if it goes on to
 /// do so. Cost: rational arithmetic for each edge of a wall of these cells.
 template <class Lcc, class Is_wall>

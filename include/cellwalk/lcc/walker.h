@@ -38,16 +38,13 @@ class Marked_walls {
 /// Particles and edges in the cells of a map.
 ///
 /// \tparam Lcc a `CGAL::Linear_cell_complex_for_combinatorial_map<D, D, ...>`, D = 2 or 3, whose points are
-///        those of a
-///         CGAL kernel. Answers are exact if the predicates of the kernel are (`Epick`, `Epeck`); with
-///         rounded ones, as of `Simple_cartesian<double>`, walks may miss walls or be lost, but they end.
+///         those of a CGAL kernel. Answers are exact if the predicates of the kernel are (`Epick`, `Epeck`).
+///         With rounded ones, as of `Simple_cartesian<double>`, walks may miss walls or be lost, but end.
 /// \tparam Is_wall `bool operator()(Dart<Lcc>) const`: whether the facet of a dart is impassable, the same
-///        for all its
-///         darts on both sides. Facets on the boundary (free for beta_D) are walls anyway.
+///         for all its darts on both sides. Facets on the boundary (free for beta_D) are walls anyway.
 /// \pre Cells are closed, convex and of positive volume, with planar convex facets, glued along whole facets;
-///        in space
-///      collinear vertices and coplanar facets are allowed. find_defect() checks it. Faces of all cells are
-///      oriented alike, as they are in maps whose cells were sewn by CGAL.
+///      in space collinear vertices and coplanar facets are allowed. find_defect() checks it. Faces of all
+///      cells are oriented alike, as they are in maps whose cells were sewn by CGAL.
 ///
 /// The map may be changed between calls by any operation of CGAL that leaves it as required: nothing is
 /// stored but a reference to it, and its orientation. So make a new walker where that may be another one:

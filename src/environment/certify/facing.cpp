@@ -94,7 +94,6 @@ Facing_walls Facing_search<D>::result() const {
   return {described(overlapping_), described(near_), tolerance_};
 }
 
-template class Facing_search<2>;
 template <int D>
 void refuse_overlapping(const Facing_facets& facets) {
   if (facets.pairs == 0) return;
@@ -107,6 +106,7 @@ void refuse_overlapping(const Facing_facets& facets) {
           ": divide them by `cellwalk import`, or keep duplicates (--duplicates keep) to have walls there");
 }
 
+template class Facing_search<2>;
 template class Facing_search<3>;
 template void refuse_overlapping<2>(const Facing_facets&);
 template void refuse_overlapping<3>(const Facing_facets&);
