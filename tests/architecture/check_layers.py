@@ -28,8 +28,8 @@ HEADER_FLOORS = {"edge/swept_triangle.h": "exact", "edge/sweep_along.h": "sweep"
 
 # Public headers that include CGAL, which costs whoever includes them seconds. docs/embedding.md names them.
 CGAL_HEADERS = {Path("include/cellwalk/environment/map.h")}
-# The layer that walks on maps of others: it stands alone, takes the predicates of their kernels, and includes CGAL.
-ALONE = "lcc"
+# The layer that walks on maps of others takes the predicates of their kernels, and includes CGAL.
+ON_MAPS = "lcc"
 
 # What tests of a layer include besides what the layer itself may: worlds to test in, and readers of public data.
 TEST_WORLDS = {"generators": {"environment"}, "environment": {"generators"}, "walk": {"generators", "io", "meshing"},
@@ -88,7 +88,6 @@ class Plan:
         self.arrows = set(re.findall(r"^ *(\w+) --> (\w+)$", drawing, re.MULTILINE))
         self.layers = {layer: self.reached(layer) for layer in {layer for arrow in self.arrows for layer in arrow}}
         self.layers["umbrella"] = {*CORE, "drawing", "loading"}
-        self.layers[ALONE] = set()
         self.floors = {}
         for layer, floor, below in re.findall(r"^\| `(\w+)/(\w+)` \|.*\|([^|]*)\|$", text, re.MULTILINE):
             self.floors.setdefault(layer, {})[floor] = set(re.findall(r"`(\w+)`", below))
@@ -175,9 +174,9 @@ def check_file(path, root, cgal, plan, sources):
                 yield f"{where}: {layer}/{floor} must not include {header} (of {layer}/{below})"
         if layer not in GPL_LAYERS and is_gpl(header, cgal):
             yield f"{where}: {header} is GPL: only meshing may include it"
-        elif header.startswith("CGAL/") and name.parts[0] == "include" and name not in CGAL_HEADERS and layer != ALONE:
+        elif header.startswith("CGAL/") and name.parts[0] == "include" and name not in CGAL_HEADERS and layer != ON_MAPS:
             yield f"{where}: {header} in a public header: include it in sources, or declare the header in check_layers.py"
-    if layer not in {"kernel", ALONE}:
+    if layer not in {"kernel", ON_MAPS}:
         code = without_comments_and_strings(text)
         for match in PREDICATE.finditer(code):
             yield (f"{name}:{line_of(code, match.start())}: {match.group().strip('( ')}: "

@@ -5,6 +5,7 @@
 #define CELLWALK_INTERNAL_LCC_SIGNS_H
 
 #include <cellwalk/internal/lcc/cells.h>
+#include <cellwalk/kernel/point.h>  // refuses -ffast-math
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Kernel/global_functions.h>
