@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walk from dart to dart of CGAL's combinatorial map beside the walks of the snapshot, on the same motions
-// in tetrahedral grids of 10^4, 10^5 and 10^6 cells, all exact.
+// The walk from dart to dart of CGAL's combinatorial map beside the walks of the snapshot, on the same
+// motions in tetrahedral grids of 10^4, 10^5 and 10^6 cells, all exact.
 //
 //   warm: 1,000 particles start close together and go there and back: their cells are in the cache.
 //   cold: 100,000 particles all over the grid go there and back in turn: data are read from main memory.
