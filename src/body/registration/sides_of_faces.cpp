@@ -50,8 +50,9 @@ class Face_sides {
 
  private:
   static constexpr std::uint32_t unset = 0xffffffffu;
-  /// The deepest search: each part is a call within that of the one before.
-  static constexpr std::size_t most_parts = 4'000;
+  /// The deepest search: each part takes some calls within those of the one before, and stacks of threads are
+  /// small.
+  static constexpr std::size_t most_parts = 1'000;
 
   /// A face, or an edge of none.
   struct Part {

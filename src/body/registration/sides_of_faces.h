@@ -13,7 +13,7 @@ namespace cellwalk::detail {
 enum class Side_search {
   found,
   none,  ///< no choice of sides lets all faces pass
-  ended  ///< after most_face_tests: there may be one
+  ended  ///< after most_face_tests, or where too many faces have a choice: there may be one
 };
 
 /// The faces that are tested on some sides before a search ends.
