@@ -62,7 +62,7 @@ set(installed_internals
   lcc/star.h
   lcc/types.h
   walk/certified_exit.h
-  walk/in_boundary.h
+  walk/in_boundary.h walk/predictive_exit.h
   walk/link_search.h
   walk/sides_taken.h
   walk/signs.h

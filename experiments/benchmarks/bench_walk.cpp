@@ -15,6 +15,7 @@
 #include <cellwalk/kernel/policies.h>
 #include <cellwalk/walk/locate.h>
 #include <cellwalk/walk/strategy.h>
+#include <cellwalk/walk/trace.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -133,6 +134,21 @@ void cellwalk_moves(benchmark::State& state, Start start, double reach) {
       static_cast<double>(w.snapshot.bytes()) / static_cast<double>(w.snapshot.cell_count());
 }
 
+/// Walks with the lengths of their pieces, all in one call.
+void traces(benchmark::State& state, Start start, double reach) {
+  World& w = world(static_cast<std::size_t>(state.range(0)));
+  Motions m = motions(w, start, reach);
+  const Tracer<3> tracer(w.snapshot);
+  Traces rows;
+  Walk_counts counts;
+  for (auto _ : state) {
+    rows.clear();
+    tracer.trace(m.particles, m.next_targets(), rows, counts);
+    benchmark::DoNotOptimize(rows.lengths.data());
+  }
+  report(state, static_cast<double>(counts.walks), static_cast<double>(counts.crossings));
+}
+
 void cgal_locate(benchmark::State& state, Start start, double reach) {
   World& w = world(static_cast<std::size_t>(state.range(0)));
   Motions m = motions(w, start, reach);
@@ -172,6 +188,9 @@ void cross_warm_lazy(benchmark::State& s) { cellwalk_moves<Lazy, rule>(s, Start:
 void cross_warm_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::warm, long_reach); }
 void cross_cold(benchmark::State& s) { cellwalk_moves<Exact, certified>(s, Start::cold, long_reach); }
 void cross_cold_double(benchmark::State& s) { cellwalk_moves<Double, rule>(s, Start::cold, long_reach); }
+void trace_repeated(benchmark::State& s) { traces(s, Start::repeated, long_reach); }
+void trace_warm(benchmark::State& s) { traces(s, Start::warm, long_reach); }
+void trace_cold(benchmark::State& s) { traces(s, Start::cold, long_reach); }
 void cross_cold_cgal_locate(benchmark::State& s) { cgal_locate(s, Start::cold, long_reach); }
 
 BENCHMARK(stay)->Apply(sizes);
@@ -184,6 +203,9 @@ BENCHMARK(cross_warm)->Apply(sizes);
 BENCHMARK(cross_warm_cgal_locate)->Apply(sizes);
 BENCHMARK(cross_cold)->Apply(sizes);
 BENCHMARK(cross_cold_cgal_locate)->Apply(sizes);
+BENCHMARK(trace_repeated)->Apply(sizes);
+BENCHMARK(trace_warm)->Apply(sizes);
+BENCHMARK(trace_cold)->Apply(sizes);
 BENCHMARK(cross_warm_exit_rule)->Apply(sizes);
 BENCHMARK(cross_warm_predictive)->Apply(sizes);
 BENCHMARK(cross_warm_double)->Apply(sizes);

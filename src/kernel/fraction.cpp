@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The rounding of fractions downwards and to nearest, and their conversion to rationals.
 #include <cellwalk/internal/kernel/fraction.h>
+#include <cellwalk/internal/kernel/greatest_double.h>
 #include <cellwalk/internal/kernel/next_double.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -77,6 +80,21 @@ double rounded_to_nearest(const Fraction& fraction) {
   const Ring twice_middle = Ring(below.value) + Ring(above);
   const Ring difference = Ring(2) * fraction.numerator() - twice_middle * fraction.denominator();
   return CGAL::sign(difference) == CGAL::POSITIVE ? above : below.value;
+}
+
+double root_to_nearest(const Fraction& square) {
+  const double guess = std::sqrt(near(square));
+  const auto is_at_least = [&](const Ring& x, int times) {  // times^2 square >= x^2
+    return CGAL::sign(Ring(Ring(times * times) * square.numerator() - x * x * square.denominator())) !=
+           CGAL::NEGATIVE;
+  };
+  const double below = detail::greatest_double(guess, std::numeric_limits<double>::max(),
+                                               [&](double x) { return is_at_least(Ring(x), 1); });
+  const double above = detail::next_above(below);
+  const Ring twice_middle = Ring(below) + Ring(above);
+  if (!is_at_least(twice_middle, 2)) return below;
+  const bool is_tie = Ring(4) * square.numerator() == twice_middle * twice_middle * square.denominator();
+  return is_tie && (std::bit_cast<std::uint64_t>(below) & 1) == 0 ? below : above;
 }
 
 double to_double(const Fraction& fraction) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The exact times at which a motion passes its choices and meets walls, and their comparison.
 #include <cellwalk/internal/kernel/crossing.h>
+#include <cellwalk/internal/kernel/fraction.h>
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/internal/walk/star.h>
@@ -37,20 +38,24 @@ Fraction blocking_time(const Snapshot<D>& snapshot, const Point<D>& a, const Poi
 }  // namespace
 
 template <int D>
-Exact_time time_of(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
-                   const Side_taken& choice) {
-  const Point<D>&u = snapshot.point(choice.u), &v = snapshot.point(choice.v);
-  if (choice.u == choice.v) {
+Fraction passing_time(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, std::uint32_t u,
+                      std::uint32_t v) {
+  const Point<D>&at_u = snapshot.point(u), &at_v = snapshot.point(v);
+  if (u == v) {
     for (std::size_t axis = 0; axis < D; ++axis)
-      if (a[axis] != b[axis])
-        return to_time(Fraction(Ring(u[axis]) - Ring(a[axis]), Ring(b[axis]) - Ring(a[axis])));
+      if (a[axis] != b[axis]) return {Ring(at_u[axis]) - Ring(a[axis]), Ring(b[axis]) - Ring(a[axis])};
     refuse_uncertified();
   }
   if constexpr (D == 3) {
-    // The motion runs along the ridge that it starts on only.
-    if (!are_collinear(a, b, u) || !are_collinear(a, b, v)) return to_time(passing_time(a, b, u, v));
+    if (!are_collinear(a, b, at_u) || !are_collinear(a, b, at_v)) return passing_time(a, b, at_u, at_v);
   }
   return {};
+}
+
+template <int D>
+Exact_time time_of(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
+                   const Side_taken& choice) {
+  return to_time(passing_time(snapshot, a, b, choice.u, choice.v));
 }
 
 template <int D>
@@ -60,6 +65,8 @@ bool blocks_later(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>
 }
 
 #define CELLWALK_INSTANTIATE(D)                                                                            \
+  template Fraction passing_time<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&, std::uint32_t,   \
+                                    std::uint32_t);                                                        \
   template Exact_time time_of<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&, const Side_taken&); \
   template bool blocks_later<D>(const Snapshot<D>&, const Point<D>&, const Point<D>&, Half_facet, Half_facet);
 

@@ -17,6 +17,12 @@
 
 namespace cellwalk {
 
+/// The place at which a motion leaves a cell.
+struct Cell_exit {
+  Half_facet facet = Half_facet::none;  ///< inside a facet; none at a ridge or vertex
+  std::uint32_t u = 0, v = 0;           ///< there: the points of ridge uv (3D), or vertex u = v
+};
+
 /// The vectors are written during the call only.
 struct Walk_options {
   /// If set, the cells entered are appended, the first one included.
@@ -26,6 +32,9 @@ struct Walk_options {
   std::vector<Half_facet>* crossed = nullptr;
   /// If false, the time, point and normal of a contact are 0 until locate_contact() computes them.
   bool locates_contact = true;
+  /// If set, the exit of each visited cell is appended, that of the last one only if a wall blocks it. A
+  /// motion that ends in a cell has no exit from it.
+  std::vector<Cell_exit>* exits = nullptr;
 };
 
 /// The counts of walks. They are machine-independent.

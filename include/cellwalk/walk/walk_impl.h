@@ -9,6 +9,7 @@
 #include <cellwalk/internal/kernel/uncertified.h>
 #include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/internal/walk/in_boundary.h>
+#include <cellwalk/internal/walk/predictive_exit.h>
 #include <cellwalk/internal/walk/sides_taken.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
@@ -111,6 +112,7 @@ class Particle_walk {
       const Star_path path = star.path(next);
       options_.crossed->insert(options_.crossed->end(), path.begin(), path.end());
     }
+    if (options_.exits) options_.exits->push_back({Half_facet::none, exit.u, exit.v});
     enter(star.cell(next));
     in_boundary_ = true;
     return true;
@@ -141,6 +143,9 @@ class Particle_walk {
       return false;
     }
     result_.status = Walk_status::contact;
+    if (options_.exits)
+      options_.exits->push_back(exit.kind == Exit::facet ? Cell_exit{wall}
+                                                         : Cell_exit{Half_facet::none, exit.u, exit.v});
     Contact<D>& contact = result_.contact.emplace();
     const Cell_view<D> wall_view = snapshot_.view(snapshot_.cell_of(wall));
     contact.kind = exit.kind == Exit::facet    ? Contact_kind::facet
@@ -157,7 +162,7 @@ class Particle_walk {
   Exit find_exit(const Cell_view<D>& cell) {
     if (planes_b_) return exit_after_doubt(cell);
     if (strategy_ == Walk_strategy::predictive_simplex && starts_inside_ && !in_boundary_ && a_ != b_)
-      return predictive_exit(cell);
+      return predictive(cell);
     return exit_by_rule(cell);
   }
 
@@ -238,6 +243,7 @@ class Particle_walk {
         refuse_uncertified();
       if (options_.visited) options_.visited->push_back(cell);
       if (options_.crossed) options_.crossed->push_back(f);
+      if (options_.exits) options_.exits->push_back({f});
     }
     counts_.plane_blocks += evaluated;
     counts_.crossings += crossed;
@@ -254,6 +260,7 @@ class Particle_walk {
     result_.aimed = facet;
     if (snapshot_.is_impassable(f)) return block({Exit::facet, facet, 0, 0}, f);
     if (options_.crossed) options_.crossed->push_back(f);
+    if (options_.exits) options_.exits->push_back({f});
     return enter(snapshot_.neighbour(f));
   }
 
@@ -288,45 +295,15 @@ class Particle_walk {
     return exit_by_sides(cell, sides, outside);
   }
 
+  Exit predictive(const Cell_view<D>& cell) {
+    const auto exit = predictive_exit<Kernel>(cell, a_, b_, result_.aimed, counts_);
+    if (!exit) return exit_by_rule(cell);
+    return exit->kind == Exit::arrived ? arrive_inside() : *exit;
+  }
+
   Exit arrive_inside() {
     result_.dimension = D;
     return {Exit::arrived};
-  }
-
-  /// The paper's forecast: turn from facet to facet across the ridge that the target lies beyond, until it
-  /// lies in the cone of the facet over the start. Crossing a ridge strictly lowers the time at which the
-  /// line meets the plane, so the turns end; among coplanar facets of one cell they need not, and the rule
-  /// takes over after a full round.
-  Exit predictive_exit(const Cell_view<D>& cell) {
-    const std::size_t facets = cell.facet_count();
-    std::size_t i = result_.aimed < facets ? result_.aimed : 0;
-    // The cone of a facet is over the start only if the start lies strictly on its inner side.
-    for (std::size_t k = 0; side<Kernel>(cell, i, a_, counts_) >= 0; ++k) {
-      if (k == facets) return exit_by_rule(cell);
-      i = i + 1 == facets ? 0 : i + 1;
-    }
-    for (std::size_t turns = 0; turns <= 2 * facets; ++turns) {
-      const auto loop = cell.loop(i);
-      std::size_t beyond = loop.size();
-      bool zero = false;
-      for (std::size_t k = 0; k < loop.size() && beyond == loop.size(); ++k) {
-        const int s = along<Kernel>(cell, i, k, a_, b_, counts_);
-        if (s < 0) beyond = k;
-        zero |= s == 0;
-      }
-      if (beyond == loop.size()) {
-        result_.aimed = static_cast<std::uint16_t>(i);
-        const int s = side<Kernel>(cell, i, b_, counts_);
-        if (s < 0 && !zero) return arrive_inside();
-        if (s > 0) return exit_through(cell, i, Line<Kernel, D>{a_, b_, counts_});
-        return exit_by_rule(cell);  // on the facet, or on the boundary of its cone: which cell is lowest?
-      }
-      ++counts_.turns;
-      const std::size_t next = facet_across(cell, i, beyond);
-      if (next == facets) break;
-      i = next;
-    }
-    return exit_by_rule(cell);
   }
 
   const Snapshot<D>& snapshot_;

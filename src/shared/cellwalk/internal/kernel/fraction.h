@@ -80,6 +80,9 @@ struct Rounded {
 Rounded rounded_down(const Fraction& fraction);
 /// The nearest double; half way between two, the lower one.
 double rounded_to_nearest(const Fraction& fraction);
+/// The double nearest to the square root; half way between two, the even one.
+/// \pre the fraction is not negative, and its root lies in the range of doubles
+double root_to_nearest(const Fraction& square);
 
 }  // namespace cellwalk
 

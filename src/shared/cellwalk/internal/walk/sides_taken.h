@@ -15,7 +15,11 @@
 #include <cstdint>
 #include <vector>
 
-namespace cellwalk::detail {
+namespace cellwalk {
+
+class Fraction;
+
+namespace detail {
 
 /// A ridge or vertex after which a motion may go on along several sides of walls.
 struct Side_taken {
@@ -50,6 +54,12 @@ template <int D>
 Exact_time time_of(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b,
                    const Side_taken& choice);
 
+/// The exact time at which the motion from a to b passes a ridge uv (3D) or a vertex u = v; 0 if it runs
+/// along the ridge, which it does from its start only.
+template <int D>
+Fraction passing_time(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, std::uint32_t u,
+                      std::uint32_t v);
+
 /// Of two walls that block the motion from a to b, true if the first does so later.
 template <int D>
 bool blocks_later(const Snapshot<D>& snapshot, const Point<D>& a, const Point<D>& b, Half_facet wall,
@@ -81,6 +91,7 @@ Walk_result<D> furthest_walk(const Snapshot<D>& snapshot, const Point<D>& a, con
   struct Way {
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
+    std::vector<Cell_exit> exits;
     Walk_result<D> result;
   };
   Sides_taken choices;
@@ -89,12 +100,13 @@ Walk_result<D> furthest_walk(const Snapshot<D>& snapshot, const Point<D>& a, con
     Walk_options recorded = options;
     recorded.visited = &way.visited;
     recorded.crossed = &way.crossed;
+    recorded.exits = &way.exits;
     recorded.locates_contact = false;
     way.result = walk_once(recorded, choices);
     return way;
   };
   Way best = find_way();
-  const std::size_t cells = best.visited.size(), facets = best.crossed.size();
+  const std::size_t cells = best.visited.size(), facets = best.crossed.size(), exits = best.exits.size();
   std::vector<Side_taken> seen;
   for (std::size_t known = 0; best.result.contact;) {
     // Where the walk was before, all that follows was tried then, or will be.
@@ -119,10 +131,12 @@ Walk_result<D> furthest_walk(const Snapshot<D>& snapshot, const Point<D>& a, con
   };
   replace(options.visited, cells, best.visited);
   replace(options.crossed, facets, best.crossed);
+  replace(options.exits, exits, best.exits);
   if (best.result.contact && options.locates_contact) locate_contact(snapshot, a, b, *best.result.contact);
   return best.result;
 }
 
-}  // namespace cellwalk::detail
+}  // namespace detail
+}  // namespace cellwalk
 
 #endif  // CELLWALK_INTERNAL_WALK_SIDES_TAKEN_H

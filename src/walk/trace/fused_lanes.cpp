@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Lengths in lanes of four, with fused products: compiled for processors that have them, and called on those
+// only. All code but the entry is local to this file.
+#include <immintrin.h>
+
+#include "lane_lengths.h"
+
+namespace cellwalk::detail {
+namespace {
+
+struct Fused_lanes {
+  using Vector = double __attribute__((vector_size(32)));
+  static constexpr unsigned long width = 4;
+
+  static Vector all(double x) { return Vector{x, x, x, x}; }
+  static Vector load(const double* from) { return Vector(_mm256_loadu_pd(from)); }
+  static void store(double* to, Vector x) { _mm256_storeu_pd(to, __m256d(x)); }
+  /// a b - product, where the product is that of doubles: exact.
+  static Vector product_error(Vector a, Vector b, Vector product) {
+    return Vector(_mm256_fmsub_pd(__m256d(a), __m256d(b), __m256d(product)));
+  }
+  static double product_error(double a, double b, double product) { return __builtin_fma(a, b, -product); }
+  static double square_root(double x) { return __builtin_sqrt(x); }
+  static Vector magnitude(Vector x) { return Vector(_mm256_andnot_pd(_mm256_set1_pd(-0.0), __m256d(x))); }
+  static void transpose(const double* r0, const double* r1, const double* r2, const double* r3,
+                        Vector* columns) {
+    const __m256d a = _mm256_load_pd(r0), b = _mm256_load_pd(r1), c = _mm256_load_pd(r2),
+                  d = _mm256_load_pd(r3);
+    const __m256d ab_02 = _mm256_unpacklo_pd(a, b), ab_13 = _mm256_unpackhi_pd(a, b);
+    const __m256d cd_02 = _mm256_unpacklo_pd(c, d), cd_13 = _mm256_unpackhi_pd(c, d);
+    columns[0] = Vector(_mm256_permute2f128_pd(ab_02, cd_02, 0x20));
+    columns[1] = Vector(_mm256_permute2f128_pd(ab_13, cd_13, 0x20));
+    columns[2] = Vector(_mm256_permute2f128_pd(ab_02, cd_02, 0x31));
+    columns[3] = Vector(_mm256_permute2f128_pd(ab_13, cd_13, 0x31));
+  }
+  static void load(const Lane_plane* const planes[4], Vector* high, Vector* low) {
+    transpose(planes[0]->high, planes[1]->high, planes[2]->high, planes[3]->high, high);
+    transpose(planes[0]->low, planes[1]->low, planes[2]->low, planes[3]->low, low);
+  }
+  /// True if the first `count` lengths, known by a low part and an error, are positive and rounded to
+  /// nearest.
+  static bool are_certain(Vector length, Vector low, Vector error, unsigned long count) {
+    const Vector above = length + (low + error), below = length + (low - error);
+    const auto certain = (above == length) & (below == length) & (length > all(0));
+    const unsigned others = count < width ? 0xfu << count : 0;
+    return ((static_cast<unsigned>(_mm256_movemask_pd(__m256d(certain))) | others) & 0xfu) == 0xfu;
+  }
+};
+
+}  // namespace
+
+bool lengths_in_fused_lanes(const Lane_segment& segment, const Lane_crossings& crossings,
+                            const Lane_positions& positions) {
+  return lengths_in_lanes<Fused_lanes>(segment, crossings, positions);
+}
+
+}  // namespace cellwalk::detail

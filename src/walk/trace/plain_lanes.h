@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The arithmetic of lane_lengths.h for any processor: one plane at a time.
+#ifndef CELLWALK_WALK_TRACE_PLAIN_LANES_H
+#define CELLWALK_WALK_TRACE_PLAIN_LANES_H
+
+#include <cellwalk/internal/kernel/twofold.h>
+
+#include <cmath>
+
+#include "lane_lengths.h"
+
+namespace cellwalk::detail {
+
+struct Plain_lanes {
+  using Vector = double;
+  static constexpr unsigned long width = 1;
+
+  static double all(double x) { return x; }
+  static double load(const double* from) { return *from; }
+  static void store(double* to, double x) { *to = x; }
+  static double product_error(double a, double b, double) { return exact_product(a, b).low; }
+  static double square_root(double x) { return std::sqrt(x); }
+  static double magnitude(double x) { return std::abs(x); }
+  static void load(const Lane_plane* const planes[1], double* high, double* low) {
+    for (int k = 0; k < 4; ++k) {
+      high[k] = planes[0]->high[k];
+      low[k] = planes[0]->low[k];
+    }
+  }
+  static bool are_certain(double length, double low, double error, unsigned long) {
+    return length + (low + error) == length && length + (low - error) == length && length > 0;
+  }
+};
+
+inline bool lengths_in_plain_lanes(const Lane_segment& segment, const Lane_crossings& crossings,
+                                   const Lane_positions& positions) {
+  return lengths_in_lanes<Plain_lanes>(segment, crossings, positions);
+}
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_WALK_TRACE_PLAIN_LANES_H

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Traces against the oracle: there are events of the motion between which each piece lies in its closed cell,
+// one piece after the other from the start to the end, and each length is the double nearest to the exact
+// one. In all worlds of the oracle, half of the motions degenerate.
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/kernel/error.h>
+#include <cellwalk/walk/trace.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "oracle/oracle.h"
+#include "walk/oracle_trial.h"
+#include "walk/oracle_worlds.h"
+
+namespace cellwalk::oracle {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+using Integer = boost::multiprecision::cpp_int;
+
+Rational to_rational(double x) {
+  const Dyadic d = to_dyadic(x);
+  const Integer power = Integer(1) << std::abs(d.exponent);
+  return d.exponent < 0 ? Rational(Integer(d.mantissa), power) : Rational(Integer(d.mantissa) * power);
+}
+
+Rational to_rational(const Fraction<Wide>& x) { return {Integer(x.numerator), Integer(x.denominator)}; }
+
+template <int D>
+Rational squared_length(const Point<D>& a, const Point<D>& b) {
+  Rational sum = 0;
+  for (std::size_t k = 0; k < D; ++k) {
+    const Rational d = to_rational(b[k]) - to_rational(a[k]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// True if x is the double nearest to the root of a square.
+bool is_nearest_root(double x, const Rational& square) {
+  if (!(x >= 0)) return false;
+  const Rational at = to_rational(x);
+  const Rational low = x == 0 ? Rational(0) : (at + to_rational(std::nextafter(x, 0.0))) / 2;
+  const Rational high = (at + to_rational(std::nextafter(x, std::numeric_limits<double>::infinity()))) / 2;
+  return low * low <= square && square <= high * high;
+}
+
+/// Particles in one world, and the targets of a batch.
+template <int D>
+struct Batch {
+  std::vector<Particle<D>> particles;
+  std::vector<Point<D>> targets;
+};
+
+template <int D>
+Batch<D> make_batch(const World<D>& world, const Locator<D>& locator, std::uint64_t seed, std::size_t count) {
+  Motion_source<D> source(world, seed);
+  Batch<D> batch;
+  Point<D> last{};
+  while (batch.particles.size() < count) {
+    const Motion_kind kind = source.kind(batch.particles.size() % 2 == 0);
+    const Point<D> start = source.start(kind);
+    std::vector<Particle<D>> sides = locator.particles_at(start);
+    if (sides.empty()) sides.push_back({start});
+    batch.particles.push_back(sides[source.random().below(sides.size())]);
+    batch.targets.push_back(source.target(kind, start, last));
+    last = start;
+  }
+  return batch;
+}
+
+struct Traced {
+  std::size_t rows = 0, pieces = 0, blocked = 0, with_shared_pieces = 0, left_out = 0, without_cell = 0;
+};
+
+/// The events at which the pieces of a row may begin and end, as sets of events after each piece; empty where
+/// there are none.
+template <int D>
+std::set<int> ends_of_pieces(const Trace& truth, const Snapshot<D>& snapshot, const Traces& traces,
+                             std::size_t row, const Rational& square, Traced& seen) {
+  std::set<int> here{0};
+  bool had_several = false;
+  for (std::size_t i = traces.offsets[row]; i < traces.offsets[row + 1]; ++i) {
+    const int number = truth.visit_of(snapshot.index(traces.cells[i]));
+    if (number < 0) return {};
+    const Visit& visit = truth.visits[static_cast<std::size_t>(number)];
+    std::set<int> next;
+    for (const int begin : here)
+      for (int end = begin + 1; begin >= visit.first && end <= visit.last; ++end) {
+        const Rational share = to_rational(truth.events[static_cast<std::size_t>(end)]) -
+                               to_rational(truth.events[static_cast<std::size_t>(begin)]);
+        if (is_nearest_root(traces.lengths[i], square * share * share)) next.insert(end);
+      }
+    had_several |= i > traces.offsets[row] && visit.first < *here.begin();
+    here = next;
+    ++seen.pieces;
+  }
+  seen.with_shared_pieces += had_several;
+  return here;
+}
+
+template <int D>
+void expect_row(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Particle<D>& start,
+                const Particle<D>& after, const Point<D>& target, const Traces& traces, std::size_t row,
+                Traced& seen) {
+  ++seen.rows;
+  const Trace_end& end = traces.ends[row];
+  if (start.cell == Cell::none) {
+    EXPECT_EQ(end.status, Walk_status::lost);
+    EXPECT_EQ(traces.offsets[row], traces.offsets[row + 1]);
+    ++seen.without_cell;
+    return;
+  }
+  // The same end, cells and facets as a walk.
+  Particle<D> walked = start;
+  std::vector<Cell> visited;
+  std::vector<Half_facet> crossed;
+  Walk_counts counts;
+  const Walk_result<D> result = move(snapshot, walked, target, counts, {&visited, &crossed});
+  EXPECT_EQ(end.status, result.status);
+  EXPECT_EQ(end.cell, result.cell);
+  EXPECT_EQ(end.wall, result.contact ? result.contact->facet : Half_facet::none);
+  EXPECT_EQ(std::tie(after.position, after.cell, after.dimension, after.aimed),
+            std::tie(walked.position, walked.cell, walked.dimension, walked.aimed));
+  const std::vector<Half_facet> crossings(
+      traces.crossings.begin() + static_cast<std::ptrdiff_t>(traces.crossing_offsets[row]),
+      traces.crossings.begin() + static_cast<std::ptrdiff_t>(traces.crossing_offsets[row + 1]));
+  EXPECT_EQ(crossings, crossed);
+  std::size_t listed = traces.offsets[row];
+  for (const Cell cell : visited)
+    if (listed < traces.offsets[row + 1] && traces.cells[listed] == cell) ++listed;
+  EXPECT_EQ(listed, traces.offsets[row + 1]);
+  seen.left_out += visited.size() - (listed - traces.offsets[row]);
+
+  // The truth.
+  const Trace truth = oracle.trace(start.position, target);
+  const Rational square = squared_length<D>(start.position, target);
+  const std::set<int> ends = ends_of_pieces(truth, snapshot, traces, row, square, seen);
+  if (result.status == Walk_status::arrived) {
+    EXPECT_TRUE(ends.contains(truth.last_event()));
+  } else {
+    ++seen.blocked;
+    bool is_legal = false;
+    for (const Stop& stop : judge(truth, snapshot.index(start.cell)).stops)
+      is_legal |= stop.cell == snapshot.index(end.cell) && ends.contains(stop.event) &&
+                  is_within_4_ulp(result.contact->time, truth.events[static_cast<std::size_t>(stop.event)]);
+    EXPECT_TRUE(is_legal);
+  }
+
+  // The lengths sum up to that of the way.
+  Rational sum = 0;
+  for (std::size_t i = traces.offsets[row]; i < traces.offsets[row + 1]; ++i)
+    sum += to_rational(traces.lengths[i]);
+  if (result.status == Walk_status::arrived && square > 0) {
+    const double length = std::sqrt(square.convert_to<double>());
+    const Rational ulp = to_rational(std::nextafter(length, 2 * length)) - to_rational(length);
+    const Rational low = sum - ulp, high = sum + ulp;
+    EXPECT_TRUE((low < 0 || low * low <= square) && square <= high * high);
+  }
+}
+
+template <int D>
+Traced trace_worlds(std::size_t rows, std::uint64_t seed) {
+  Traced seen;
+  const std::size_t rows_of_world = 300;
+  for (std::uint64_t number = seed; seen.rows < rows; ++number) {
+    const World<D> world = make_world<D>(number);
+    const Oracle<D> oracle(world.soup);
+    const Snapshot<D> snapshot = Snapshot<D>::compile(world.soup, glue(world.soup));
+    const Locator<D> locator(snapshot);
+    const Tracer<D> tracer(snapshot);
+    Batch<D> batch = make_batch(world, locator, number, rows_of_world);
+    const std::vector<Particle<D>> starts = batch.particles;
+    Traces traces;
+    Walk_counts counts;
+    tracer.trace(batch.particles, batch.targets, traces, counts);
+    for (std::size_t row = 0; row < rows_of_world; ++row) {
+      expect_row(oracle, snapshot, starts[row], batch.particles[row], batch.targets[row], traces, row, seen);
+      if (testing::Test::HasFailure()) {
+        ADD_FAILURE() << "world " << number << " (" << world.name << "), row " << row;
+        return seen;
+      }
+    }
+  }
+  return seen;
+}
+
+template <int D>
+void test_worlds() {
+  const std::size_t rows = scaled_count(60 * 300);
+  const Traced seen = trace_worlds<D>(rows, 0);
+  if (is_shortened()) return;
+  EXPECT_GT(seen.pieces, rows);
+  EXPECT_GT(seen.blocked, rows / 10);
+  EXPECT_GT(seen.with_shared_pieces, rows / 1000);
+  EXPECT_GT(seen.left_out, rows / 1000);
+  EXPECT_GT(seen.without_cell, rows / 1000);
+}
+
+TEST(TraceOracle, LengthsAreThoseOfTheTruth2) { test_worlds<2>(); }
+TEST(TraceOracle, LengthsAreThoseOfTheTruth3) { test_worlds<3>(); }
+
+}  // namespace
+}  // namespace cellwalk::oracle
