@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "lane_walk.h"
+#include "lane_functions.h"
 
 namespace cellwalk::detail {
 
@@ -26,9 +26,11 @@ inline constexpr std::size_t rows_of_block = 256;
 template <int D>
 class Block_walk {
  public:
-  /// \param has_fused_lanes the processor has the instructions of fused_lanes.cpp
-  Block_walk(const Snapshot<D>& snapshot, bool has_fused_lanes)
-      : snapshot_(snapshot), is_in_lanes_(has_fused_lanes && snapshot.uniform_blocks() == 1) {
+  Block_walk(const Snapshot<D>& snapshot, const Lane_functions& functions)
+      : snapshot_(snapshot),
+        walk_in_lanes_(snapshot.uniform_blocks() != 1 ? nullptr
+                       : D == 2                       ? functions.walk_2
+                                                      : functions.walk_3) {
     for (unsigned slot = 0; slot < lane_slots; ++slot) grow(slot);
   }
   Block_walk(const Block_walk&) = delete;
@@ -53,7 +55,7 @@ class Block_walk {
     }
     for (Lane_met& met : met_) met.count = 0;
     if (count == 0) return;
-    if (is_in_lanes_)
+    if (walk_in_lanes_)
       in_lanes(count);
     else if (snapshot_.uniform_blocks() == 1)
       one_by_one(count, [&](const Slot& slot) {
@@ -89,26 +91,15 @@ class Block_walk {
 
   void in_lanes(std::size_t count) {
     static_assert(sizeof(Plane_block<D>) == 4 * (D + 1) * sizeof(float));
-    const Lane_walks walks{reinterpret_cast<const float*>(snapshot_.blocks(Cell{0})),
-                           snapshot_.links(Cell{0}),
-                           plane_error,
-                           time_slack,
-                           motions_.data(),
-                           count,
-                           snapshot_.half_facet_slots(),
-                           met_.data(),
-                           [](void* owner, unsigned slot) { static_cast<Block_walk*>(owner)->grow(slot); },
-                           this};
-#if defined(CELLWALK_HAS_FUSED_LANES)
-    D == 2 ? walk_in_fused_lanes_2(walks) : walk_in_fused_lanes_3(walks);
-#else
-    static_cast<void>(walks);
-#endif
+    walk_in_lanes_({reinterpret_cast<const float*>(snapshot_.blocks(Cell{0})), snapshot_.links(Cell{0}),
+                    plane_error, time_slack, motions_.data(), count, snapshot_.half_facet_slots(),
+                    met_.data(),
+                    [](void* owner, unsigned slot) { static_cast<Block_walk*>(owner)->grow(slot); }, this});
   }
 
   template <class Find_exit>
   void one_by_one(std::size_t count, Find_exit find_exit) {
-    std::array<Slot, lane_slots / 2> slots;
+    std::array<Slot, 4> slots;
     std::size_t next = 0, active = 0;
     const auto start = [&](Slot& slot) {
       if (next == count) return false;
@@ -154,7 +145,7 @@ class Block_walk {
   }
 
   const Snapshot<D>& snapshot_;
-  const bool is_in_lanes_;
+  const Lane_walk walk_in_lanes_;  ///< if any
   std::array<Lane_row, rows_of_block> rows_;
   std::array<Lane_motion, rows_of_block> motions_;
   std::array<std::vector<unsigned>, lane_slots> kept_;

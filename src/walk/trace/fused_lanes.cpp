@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Lengths in lanes of four, with fused products: compiled for processors that have them, and called on those
-// only. All code but the entry is local to this file.
+// Four doubles or eight floats at a time, with fused products: compiled for processors that have them, and
+// called on those only. All code but the entry is local to this file.
 #include <immintrin.h>
 
-#include "lane_lengths.h"
-#include "lane_walk.h"
+#include "lane_functions.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -65,6 +64,8 @@ struct Fused_cells {
   static Floats multiply_add(Floats a, Floats b, Floats c) {
     return Floats(_mm256_fmadd_ps(__m256(a), __m256(b), __m256(c)));
   }
+  static Bits is_above(Floats a, Floats b) { return a > b; }
+  static Bits is_at_most(Floats a, Floats b) { return a <= b; }
   static Floats choose(Bits condition, Floats a, Floats b) {
     return Floats(_mm256_blendv_ps(__m256(b), __m256(a), __m256(condition)));
   }
@@ -78,10 +79,8 @@ struct Fused_cells {
 
 }  // namespace
 
-void walk_in_fused_lanes_2(const Lane_walks& walks) { walk_in_lanes<Fused_cells, 2>(walks); }
-void walk_in_fused_lanes_3(const Lane_walks& walks) { walk_in_lanes<Fused_cells, 3>(walks); }
-
 const Lane_functions fused_lane_functions{&set_directions_in_lanes<Fused_lanes>,
-                                          &measure_in_lanes<Fused_lanes>};
+                                          &measure_in_lanes<Fused_lanes>, &walk_in_lanes<Fused_cells, 2>,
+                                          &walk_in_lanes<Fused_cells, 3>};
 
 }  // namespace cellwalk::detail

@@ -50,18 +50,6 @@ struct Lane_positions {
   double *high, *low, *error, *length;
 };
 
-/// The functions for a kind of processor.
-struct Lane_functions {
-  /// Computes directions and lengths.
-  void (*set_directions)(const Lane_segments& segments, unsigned long count);
-  /// Computes the lengths of the pieces of a segment; true if each is positive and the double nearest to its
-  /// exact value.
-  bool (*measure)(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
-                  const Lane_positions& positions);
-};
-
-extern const Lane_functions fused_lane_functions;
-
 namespace {
 
 /// a + b in `sum`; returns the error of the rounding.
@@ -72,6 +60,7 @@ inline V sum_with_error(V a, V b, V& sum) {
   return (a - (sum - of_b)) + (b - of_b);
 }
 
+/// Computes the directions and lengths of segments.
 template <class Lanes>
 inline void set_directions_in_lanes(const Lane_segments& segments, unsigned long count) {
   using V = typename Lanes::Vector;
@@ -160,6 +149,8 @@ inline void meet_planes(const Lane_segments& segments, unsigned long segment, co
   }
 }
 
+/// Computes the lengths of the pieces of a segment.
+/// \return true if each is positive and the double nearest to its exact value
 template <class Lanes>
 inline bool measure_in_lanes(const Lane_segments& segments, unsigned long segment,
                              const Lane_crossings& crossings, const Lane_positions& positions) {

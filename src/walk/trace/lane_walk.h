@@ -11,7 +11,7 @@
 namespace cellwalk::detail {
 
 /// The particles that are walked at a time.
-inline constexpr unsigned lane_slots = 8;
+inline constexpr unsigned lane_slots = 16;
 
 /// How a row ended: decided by planes, and if so in a cell or at a wall.
 enum class Lane_verdict : unsigned char { undecided, arrived, blocked };
@@ -50,104 +50,175 @@ struct Lane_walks {
   void* owner;
 };
 
-void walk_in_fused_lanes_2(const Lane_walks& walks);
-void walk_in_fused_lanes_3(const Lane_walks& walks);
+using Lane_walk = void (*)(const Lane_walks& walks);
 
 namespace {
 
-/// \tparam Lanes vectors of floats, four for each of `cells` cells
+/// Lanes by their masks: the exit of a cell is the only one of `exits`, and all four planes must be decided.
+struct Exit_lanes {
+  static constexpr unsigned char none = 4;
+  unsigned char lane[256];  ///< at index exits + 16 decided
+  constexpr Exit_lanes() : lane() {
+    for (unsigned i = 0; i < 256; ++i) {
+      const unsigned exits = i & 0xf, decided = i >> 4;
+      lane[i] = decided != 0xf ? none
+                : exits == 1   ? 0
+                : exits == 2   ? 1
+                : exits == 4   ? 2
+                : exits == 8   ? 3
+                               : none;
+    }
+  }
+};
+inline constexpr Exit_lanes exit_lanes;
+
+/// Walks under way.
+/// \tparam Lanes vectors of floats, four for each of some cells
 template <class Lanes, unsigned D>
-void walk_in_lanes(const Lane_walks& walks) {
-  using V = typename Lanes::Floats;
-  constexpr unsigned cells = Lanes::cells, lanes = 4 * cells, groups = lane_slots / cells;
-  constexpr unsigned never = 4;
-  struct alignas(64) Group {
-    float from[D][lanes], to[D][lanes];
-    unsigned cell[cells];
-    unsigned doubtful[cells];  ///< lanes at which the start need not be strictly inside
-    const Lane_motion* motion[cells];
-    unsigned begin[cells];
-  } group[groups];
-  unsigned long next = 0;
-  unsigned active = 0;
-
-  const auto start = [&](Group& g, unsigned i) {
-    if (next == walks.count) {
-      g.motion[i] = nullptr;
-      return;
+class Walks_in_lanes {
+ public:
+  explicit Walks_in_lanes(const Lane_walks& walks) : walks_(walks) {
+    for (unsigned slot = 0; slot < lane_slots; ++slot) {
+      const Lane_met& met = walks.met[slot];
+      next_[slot] = met.half_facet + met.count;
+      cell_[slot] = walks.motions[0].cell;  // any, where there are fewer motions than slots
+      start(slot);
     }
-    const Lane_motion& motion = walks.motions[next++];
-    for (unsigned k = 0; k < D; ++k)
-      for (unsigned lane = 0; lane < 4; ++lane) {
-        g.from[k][4 * i + lane] = motion.from[k];
-        g.to[k][4 * i + lane] = motion.to[k];
-      }
-    g.cell[i] = motion.cell;
-    g.doubtful[i] = motion.starts_inside ? 0 : 0xf;
-    g.motion[i] = &motion;
-    ++active;
-  };
-  const auto end = [&](Group& g, unsigned i, unsigned slot, Lane_verdict verdict) {
-    const auto met = static_cast<unsigned>(walks.met[slot].count);
-    *g.motion[i]->row = {verdict, static_cast<unsigned char>(slot), g.begin[i], met, g.cell[i]};
-    g.begin[i] = met;
-    --active;
-    start(g, i);
-  };
+  }
 
-  for (unsigned j = 0; j < groups; ++j)
-    for (unsigned i = 0; i < cells; ++i) {
-      group[j].cell[i] = walks.motions[0].cell;  // any, where there are fewer motions than slots
-      for (unsigned k = 0; k < D; ++k)
-        for (unsigned lane = 0; lane < 4; ++lane)
-          group[j].from[k][4 * i + lane] = group[j].to[k][4 * i + lane] = 0;
-      group[j].begin[i] = static_cast<unsigned>(walks.met[j * cells + i].count);
-      start(group[j], i);
-    }
-  const V error = Lanes::all_floats(walks.error), slack = Lanes::all_floats(walks.slack);
-  while (active != 0)
-    for (unsigned j = 0; j < groups; ++j) {
-      Group& g = group[j];
-      const float* block[cells];
-      for (unsigned i = 0; i < cells; ++i)
-        block[i] = walks.blocks + 4 * (D + 1) * static_cast<unsigned long>(g.cell[i]);
-      V a = Lanes::row(block, 4 * D), b = a;
-      for (unsigned k = 0; k < D; ++k) {
-        const V normal = Lanes::row(block, 4 * k);
-        a = Lanes::multiply_add(normal, Lanes::load_floats(g.from[k]), a);
-        b = Lanes::multiply_add(normal, Lanes::load_floats(g.to[k]), b);
-      }
-      const auto outside = b > error;
-      const V inverse = Lanes::all_floats(1) / (b - a);
-      const V time = -a * inverse, width = Lanes::multiply_add(error, inverse, slack);
-      const V upper = Lanes::choose(outside, time + width, Lanes::all_floats(never));
-      const auto first = (time - width <= Lanes::least_of_four(upper)) & outside;
-      const unsigned exits = Lanes::mask(first), beyond = Lanes::mask(outside);
-      const unsigned decided = beyond | Lanes::mask(b < -error), inside = Lanes::mask(a < -error);
-      for (unsigned i = 0; i < cells; ++i) {
-        if (!g.motion[i]) continue;
-        const unsigned slot = j * cells + i, exit = exits >> 4 * i & 0xf;
-        const bool is_decided = (decided >> 4 * i & 0xf) == 0xf;
-        const bool leaves = is_decided && exit != 0 && (exit & (exit - 1)) == 0 &&
-                            (exit & g.doubtful[i] & ~(inside >> 4 * i)) == 0;
-        if (leaves) [[likely]] {
-          const unsigned f = 4 * g.cell[i] + static_cast<unsigned>(__builtin_ctz(exit));
-          Lane_met& met = walks.met[slot];
-          met.half_facet[met.count++] = f;
-          if (met.count == met.room) [[unlikely]]
-            walks.grow(walks.owner, slot);
-          const unsigned link = walks.links[f];
-          g.doubtful[i] = 0;
-          if (static_cast<int>(link) >= 0 && met.count - g.begin[i] <= walks.most_facets) [[likely]]
-            g.cell[i] = link;
-          else
-            end(g, i, slot, static_cast<int>(link) < 0 ? Lane_verdict::blocked : Lane_verdict::undecided);
-        } else {
-          const bool is_in_cell = is_decided && (beyond >> 4 * i & 0xf) == 0;
-          end(g, i, slot, is_in_cell ? Lane_verdict::arrived : Lane_verdict::undecided);
+  void run() {
+    using V = typename Lanes::Floats;
+    const V error = Lanes::all_floats(walks_.error), slack = Lanes::all_floats(walks_.slack);
+    const V never = Lanes::all_floats(4), one = Lanes::all_floats(1);
+    const float* const blocks = walks_.blocks;
+    const unsigned* const links = walks_.links;
+    while (active_ != 0)
+      for (unsigned slot = 0; slot < lane_slots; slot += Lanes::cells) {
+        const float* block[Lanes::cells];
+        for (unsigned i = 0; i < Lanes::cells; ++i)
+          block[i] = blocks + 4 * (D + 1) * static_cast<unsigned long>(cell_[slot + i]);
+        const Lines& lines = lines_[slot / Lanes::cells];
+        V a = Lanes::row(block, 4 * D), b = a;
+        for (unsigned k = 0; k < D; ++k) {
+          const V normal = Lanes::row(block, 4 * k);
+          a = Lanes::multiply_add(normal, Lanes::load_floats(lines.from[k]), a);
+          b = Lanes::multiply_add(normal, Lanes::load_floats(lines.to[k]), b);
+        }
+        const auto outside = Lanes::is_above(b, error);
+        const V inverse = one / (b - a);
+        const V time = -a * inverse, width = Lanes::multiply_add(error, inverse, slack);
+        const V upper = Lanes::choose(outside, time + width, never);
+        const auto first = Lanes::is_at_most(time - width, Lanes::least_of_four(upper)) & outside;
+        const unsigned exits = Lanes::mask(first), beyond = Lanes::mask(outside);
+        const unsigned decided = beyond | Lanes::mask(Lanes::is_above(-error, b));
+        for (unsigned i = 0; i < Lanes::cells; ++i) {
+          const unsigned s = slot + i;
+          const unsigned lane = exit_lanes.lane[(exits >> 4 * i & 0xf) | (decided >> 4 * i & 0xf) << 4];
+          if (lane != Exit_lanes::none && is_certain_[s]) [[likely]] {
+            const unsigned f = 4 * cell_[s] + lane, link = links[f];
+            *next_[s]++ = f;
+            if (static_cast<int>(link) >= 0 && next_[s] != limit_[s]) [[likely]] {
+              cell_[s] = link;
+              continue;
+            }
+            pass_or_end(s, link);
+          } else {
+            const unsigned inside = Lanes::mask(Lanes::is_above(-error, a)) >> 4 * i & 0xf;
+            leave_or_end(s, lane, beyond >> 4 * i & 0xf, decided >> 4 * i & 0xf, inside);
+          }
         }
       }
+  }
+
+ private:
+  struct alignas(64) Lines {
+    float from[D][4 * Lanes::cells], to[D][4 * Lanes::cells];
+  };
+
+  void start(unsigned slot) {
+    Lines& lines = lines_[slot / Lanes::cells];
+    const unsigned first = 4 * (slot % Lanes::cells);
+    begin_[slot] = static_cast<unsigned>(next_[slot] - walks_.met[slot].half_facet);
+    is_certain_[slot] = false;
+    if (next_motion_ == walks_.count) {
+      motion_[slot] = nullptr;
+      for (unsigned lane = 0; lane < 4; ++lane)
+        lines.to[0][first + lane] = __builtin_nanf("");  // decides nothing
+      return;
     }
+    const Lane_motion& motion = walks_.motions[next_motion_++];
+    for (unsigned k = 0; k < D; ++k)
+      for (unsigned lane = 0; lane < 4; ++lane) {
+        lines.from[k][first + lane] = motion.from[k];
+        lines.to[k][first + lane] = motion.to[k];
+      }
+    motion_[slot] = &motion;
+    cell_[slot] = motion.cell;
+    is_certain_[slot] = motion.starts_inside;
+    set_limit(slot);
+    ++active_;
+  }
+
+  /// Where to look whether there is room, or a walk that does not end.
+  void set_limit(unsigned slot) {
+    const Lane_met& met = walks_.met[slot];
+    const unsigned long most = begin_[slot] + walks_.most_facets;
+    limit_[slot] = met.half_facet + (most < met.room ? most : met.room);
+  }
+
+  [[gnu::noinline]] void end(unsigned slot, Lane_verdict verdict) {
+    const auto met = static_cast<unsigned>(next_[slot] - walks_.met[slot].half_facet);
+    *motion_[slot]->row = {verdict, static_cast<unsigned char>(slot), begin_[slot], met, cell_[slot]};
+    --active_;
+    start(slot);
+  }
+
+  /// After a facet that is a wall, or where the limit is reached.
+  [[gnu::noinline]] void pass_or_end(unsigned slot, unsigned link) {
+    Lane_met& met = walks_.met[slot];
+    met.count = static_cast<unsigned long>(next_[slot] - met.half_facet);
+    const bool is_endless = met.count - begin_[slot] >= walks_.most_facets;
+    if (met.count == met.room) {
+      walks_.grow(walks_.owner, slot);
+      next_[slot] = met.half_facet + met.count;
+    }
+    if (static_cast<int>(link) < 0 || is_endless) {
+      end(slot, static_cast<int>(link) < 0 ? Lane_verdict::blocked : Lane_verdict::undecided);
+      return;
+    }
+    cell_[slot] = link;
+    is_certain_[slot] = true;
+    set_limit(slot);
+  }
+
+  /// Where the exit is not that of most steps: none, undecided, or from a start in the boundary.
+  [[gnu::noinline]] void leave_or_end(unsigned slot, unsigned lane, unsigned beyond, unsigned decided,
+                                      unsigned inside) {
+    if (!motion_[slot]) return;
+    if (lane != Exit_lanes::none && (inside >> lane & 1) != 0) {
+      const unsigned f = 4 * cell_[slot] + lane;
+      *next_[slot]++ = f;
+      pass_or_end(slot, walks_.links[f]);
+      return;
+    }
+    end(slot, decided == 0xf && beyond == 0 ? Lane_verdict::arrived : Lane_verdict::undecided);
+  }
+
+  const Lane_walks& walks_;
+  Lines lines_[lane_slots / Lanes::cells];
+  unsigned cell_[lane_slots];
+  unsigned* next_[lane_slots];
+  unsigned* limit_[lane_slots];
+  bool is_certain_[lane_slots];  ///< the line passes the inside of the cell before any exit
+  unsigned begin_[lane_slots];
+  const Lane_motion* motion_[lane_slots];
+  unsigned long next_motion_ = 0;
+  unsigned active_ = 0;
+};
+
+template <class Lanes, unsigned D>
+void walk_in_lanes(const Lane_walks& walks) {
+  Walks_in_lanes<Lanes, D>(walks).run();
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "lane_lengths.h"
+#include "lane_functions.h"
 
 namespace cellwalk::detail {
 
@@ -34,7 +34,7 @@ struct Plain_lanes {
 };
 
 inline constexpr Lane_functions plain_lane_functions{&set_directions_in_lanes<Plain_lanes>,
-                                                     &measure_in_lanes<Plain_lanes>};
+                                                     &measure_in_lanes<Plain_lanes>, nullptr, nullptr};
 
 }  // namespace cellwalk::detail
 

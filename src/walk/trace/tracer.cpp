@@ -29,18 +29,10 @@ void Traces::clear() {
 namespace detail {
 namespace {
 
-bool has_fused_lanes() {
+/// The functions for this processor.
+const Lane_functions& chosen_functions() {
 #if defined(CELLWALK_HAS_FUSED_LANES)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  return false;
-#endif
-}
-
-/// Those for this processor.
-Lane_functions chosen_functions() {
-#if defined(CELLWALK_HAS_FUSED_LANES)
-  if (has_fused_lanes()) return fused_lane_functions;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return fused_lane_functions;
 #endif
   return plain_lane_functions;
 }
@@ -88,7 +80,7 @@ struct Tracer<D>::Planes {
   const Snapshot<D>* snapshot;
   std::uint64_t epoch;
   detail::Lane_planes planes;
-  detail::Lane_functions functions;
+  const detail::Lane_functions& functions;
 };
 
 namespace {
@@ -104,7 +96,7 @@ class Trace_call {
         functions_(functions),
         traces_(traces),
         counts_(counts),
-        walks_(snapshot, detail::has_fused_lanes()),
+        walks_(snapshot, functions),
         segments_(detail::lane_error * planes.size) {}
 
   /// Appends the rows, and returns the state of those particles that arrive, in order.
@@ -147,18 +139,14 @@ class Trace_call {
                             {high_.data(), low_.data(), error_.data(), length_.data()}))
       return false;
 
-    const auto append = [](auto& values, std::size_t count) {
-      values.resize(values.size() + count);
-      return values.data() + (values.size() - count);
-    };
-    std::copy_n(length_.data(), pieces, append(traces_.lengths, pieces));
-    Cell* const cells = append(traces_.cells, pieces);
-    Half_facet* const facets = append(traces_.crossings, passed);
-    cells[0] = particle.cell;
-    for (std::size_t k = 0; k < passed; ++k) {
-      facets[k] = Half_facet{met[k]};
-      cells[k + 1] = snapshot_.neighbour(facets[k]);
-    }
+    const std::uint32_t* const links = snapshot_.links(Cell{0});  // of passable facets: the cells beyond
+    if (cells_.size() < pieces) cells_.resize(2 * pieces);
+    cells_[0] = particle.cell;
+    for (std::size_t k = 0; k < passed; ++k) cells_[k + 1] = Cell{links[met[k]]};
+    const auto* const facets = reinterpret_cast<const Half_facet*>(met.data());
+    traces_.crossings.insert(traces_.crossings.end(), facets, facets + passed);
+    traces_.cells.insert(traces_.cells.end(), cells_.data(), cells_.data() + pieces);
+    traces_.lengths.insert(traces_.lengths.end(), length_.data(), length_.data() + pieces);
     ++counts_.walks;
     counts_.stays += passed == 0 && !is_blocked;
     counts_.crossings += passed;
@@ -191,13 +179,13 @@ class Trace_call {
 
   const Snapshot<D>& snapshot_;
   const detail::Lane_planes& planes_;
-  const detail::Lane_functions functions_;
+  const detail::Lane_functions& functions_;
   Traces& traces_;
   Walk_counts& counts_;
   detail::Block_walk<D> walks_;
   detail::Block_segments segments_;
   std::vector<double> high_, low_, error_, length_, piece_lengths_;
-  std::vector<Cell> visited_;
+  std::vector<Cell> cells_, visited_;
   std::vector<Cell_exit> exits_;
 };
 
