@@ -43,8 +43,8 @@ struct Given_cells {
 };
 
 /// \param cells with `types` None, an integer array (M, k), a mapping of types to such arrays, or a sequence
-///        of blocks, each of a type and an array; with types (M,) of VTK the flat array of their corners, each
-///        cell after the number of its corners
+///        of blocks, each of a type and an array; with types (M,) of VTK the flat array of their corners,
+///        each cell after the number of its corners
 /// \param name for messages
 /// \param type_of_rows of an array (M, k); empty: by k
 /// \throw TypeError, InputError, or RowError naming a point that does not exist

@@ -35,8 +35,8 @@ TEST(Vtu, CellsHaveTheirTypes) {
   soup.end_cell();
   const Vtu_grid grid = vtu_of_cells(soup);
   EXPECT_EQ(grid.types, (Byte_list{12, 14, 10, 13, 42}));
-  EXPECT_EQ(grid.connectivity, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6,  7,  4, 5, 6, 7, 8, 1, 9, 10,
-                                                          11, 2, 11, 10, 3, 5, 4, 0, 1, 2, 3, 4, 8}));
+  EXPECT_EQ(grid.connectivity, (std::vector<std::int64_t>{0,  1,  2, 3,  4,  5, 6, 7, 4, 5, 6, 7, 8, 1, 9,
+                                                          10, 11, 2, 11, 10, 3, 5, 4, 0, 1, 2, 3, 4, 8}));
   EXPECT_EQ(grid.offsets, (std::vector<std::int64_t>{8, 13, 17, 23, 29}));
   EXPECT_EQ(grid.face_offsets, (std::vector<std::int64_t>{-1, -1, -1, -1, 27}));
   EXPECT_EQ(std::get<1>(grid.cell_data[1].values), (std::vector<std::int64_t>{0, 0, 1, 0, 0}));
