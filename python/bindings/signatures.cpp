@@ -78,6 +78,30 @@ std::string written(std::string_view name, const std::string& parameters, const 
   return std::string(name) + "(" + parameters + ")\n--\n\n" + text;
 }
 
+PyCFunctionWithKeywords of_pybind = nullptr;  ///< which calls all functions of the module
+
+/// Calls a function. If the arguments do not fit, pybind11 shows all of them; then what is wrong is said
+/// instead.
+PyObject* call(PyObject* self, PyObject* arguments, PyObject* named) {
+  PyObject* const result = of_pybind(self, arguments, named);
+  if (result != nullptr || !PyErr_ExceptionMatches(PyExc_TypeError)) return result;
+  py::error_already_set raised;
+  const std::string said = py::str(raised.value());
+  if (said.find("): incompatible ") == std::string::npos) {
+    raised.restore();
+    return nullptr;
+  }
+  try {
+    const py::object refusal = py::module_::import("cellwalk._calls").attr("refusal");
+    const py::dict by_name = named == nullptr ? py::dict() : py::reinterpret_borrow<py::dict>(named);
+    const std::string text = py::str(refusal(said, py::reinterpret_borrow<py::tuple>(arguments), by_name));
+    PyErr_SetString(PyExc_TypeError, text.c_str());
+  } catch (py::error_already_set& failure) {
+    failure.restore();
+  }
+  return nullptr;
+}
+
 /// The compiled function of a member of a class or module, or null.
 PyCFunctionObject* function_of(PyObject* member) {
   if (PyInstanceMethod_Check(member)) member = PyInstanceMethod_Function(member);
@@ -94,6 +118,9 @@ std::string give_signature(PyCFunctionObject& function) {
   // pybind11 made the text in this way, and frees it with the function.
   std::free(const_cast<char*>(definition.ml_doc));
   definition.ml_doc = strdup(written(definition.ml_name, found->parameters, found->text).c_str());
+  using Any_function = void (*)();
+  of_pybind = reinterpret_cast<PyCFunctionWithKeywords>(reinterpret_cast<Any_function>(definition.ml_meth));
+  definition.ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<Any_function>(call));
   return found->parameters;
 }
 

@@ -118,8 +118,35 @@ class Refusals(unittest.TestCase):
             self.environment.walk(points, points, threads=-1)
         with self.assertRaisesRegex(cellwalk.UsageError, "tolerance"):
             self.environment.sweep(points, points, points, tolerance=0.0)
-        with self.assertRaisesRegex(TypeError, "thread=2"):
-            self.environment.locate(points, thread=2)
+
+    def test_calls(self):
+        """In the words of Python, instead of those of pybind11 with all that was given."""
+        e, points = self.environment, numpy.full((1, 3), 0.5)
+        body = cellwalk.Body(e, points)
+        for message, call in (
+            ("locate(): got an unexpected keyword argument 'thread'", lambda: e.locate(points, thread=2)),
+            ("locate(): missing a required argument: 'points'", lambda: e.locate()),
+            ("locate(): too many positional arguments", lambda: e.locate(points, 2)),
+            ("walk(): multiple values for argument 'starts'", lambda: e.walk(points, starts=points)),
+            ("locate(): threads must be int, and is float", lambda: e.locate(points, threads=1.5)),
+            ("walk(): touch must be str, and is NoneType", lambda: e.walk(points, points, touch=None)),
+            ("locate(): self must be Environment, and is NoneType", lambda: cellwalk.Environment.locate(None, points)),
+            ("Particles(): environment must be Environment, and is int", lambda: cellwalk.Particles(3, points)),
+            ("Particles(): environment must be Environment, and is NoneType", lambda: cellwalk.Particles(environment=None, points=points)),
+            ("Body(): missing a required argument: 'points'", lambda: cellwalk.Body(e)),
+            ("clearances(): up_to must be float, and is str", lambda: body.clearances("1")),
+            ("move_vertex(): vertex is -1, which is out of range", lambda: body.move_vertex(-1, points[0])),
+            ("from_arrays(): split must be bool, and is str", lambda: cellwalk.Environment.from_arrays(points, [[0]], split="no")),
+            ("import_mesh(): quality must be Optional[float], and is str", lambda: cellwalk.Environment.import_mesh("a", quality="high")),
+            ("draw(): missing a required argument: 'file'", lambda: cellwalk.draw(e, [body])),
+            ("select(): group must be Optional[str], and is int", lambda: e.select(group=3)),
+        ):
+            with self.assertRaises(TypeError) as caught:
+                call()
+            self.assertEqual(str(caught.exception), message)
+            self.assertIsNone(caught.exception.__context__)
+        with self.assertRaisesRegex(TypeError, r"^import_mesh\(\): obstacles must be [Ll]ist\[object\], and is str$"):
+            cellwalk.Environment.import_mesh("a", obstacles="b.off")
 
     def test_no_environment(self):
         for make in (lambda: cellwalk.Particles(None, numpy.zeros((1, 3))), lambda: cellwalk.Body(None, numpy.zeros((1, 3))),

@@ -39,14 +39,6 @@ def bound_parameters(function):
             for p in inspect.signature(function).parameters.values()]
 
 
-def mypy(*arguments):
-    with tempfile.TemporaryDirectory() as cache:
-        search = {**os.environ, "MYPYPATH": str(PACKAGE.parent)}
-        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, *map(str, arguments)], capture_output=True, text=True,
-                              env=search)
-    return done.returncode, done.stdout + done.stderr
-
-
 class Stubs(unittest.TestCase):
     def test_names(self):
         public = {n for n in dir(_cellwalk) if not n.startswith("_")} | {"__version__"}
@@ -117,25 +109,35 @@ class Stubs(unittest.TestCase):
 
 
 class Mypy(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+
+    def mypy(self, *arguments):
+        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", self.folder / "cache", *arguments], capture_output=True,
+                              text=True, env={**os.environ, "MYPYPATH": str(PACKAGE.parent)})
+        return done.returncode, done.stdout + done.stderr
+
     def test_the_package_and_a_typed_example(self):
-        code, said = mypy(PACKAGE / "_cellwalk.pyi", *sorted(PACKAGE.glob("*.py")), pathlib.Path(os.environ["CELLWALK_EXAMPLES"]) / "arrays.py")
+        code, said = self.mypy(PACKAGE / "_cellwalk.pyi", *sorted(PACKAGE.glob("*.py")), pathlib.Path(os.environ["CELLWALK_EXAMPLES"]) / "arrays.py")
         self.assertEqual(code, 0, said)
 
     def test_mistakes_are_found(self):
-        with tempfile.TemporaryDirectory() as folder:
-            wrong = pathlib.Path(folder) / "wrong.py"
-            wrong.write_text("import cellwalk\n"
-                             "e = cellwalk.Environment.generate('hexes', cells=2)\n"
-                             "e.walk([[1, 1, 1]], [[2, 2, 2]], touch='never')\n"
-                             "e.locate()\n"
-                             "e.locate([[1, 1, 1]]).cells\n"
-                             "e.to_arrays().walls + 'x'\n"
-                             "cellwalk.Environment([[0, 0, 0]], [[0]])\n")
-            code, said = mypy(wrong)
-            self.assertEqual(code, 1, said)
-            for line in range(3, 8):
-                self.assertIn(f"wrong.py:{line}: error:", said)
-            self.assertIn("Found 5 errors in 1 file", said)
+        wrong = self.folder / "wrong.py"
+        wrong.write_text("import cellwalk\n"
+                         "e = cellwalk.Environment.generate('hexes', cells=2)\n"
+                         "e.walk([[1, 1, 1]], [[2, 2, 2]], touch='never')\n"
+                         "e.locate()\n"
+                         "e.locate([[1, 1, 1]]).cells\n"
+                         "e.to_arrays().walls + 'x'\n"
+                         "cellwalk.Environment([[0, 0, 0]], [[0]])\n")
+        code, said = self.mypy(wrong)
+        self.assertEqual(code, 1, said)
+        for line in range(3, 8):
+            self.assertIn(f"wrong.py:{line}: error:", said)
+        self.assertIn("Found 5 errors in 1 file", said)
 
 
 if __name__ == "__main__":
