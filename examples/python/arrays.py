@@ -15,7 +15,7 @@ print(hut)
 particles = cellwalk.Particles(hut, [[1, 1, 0.5], [1, 1, 1.5], [1, 1, 2.5]])
 below = particles.positions[:, 2] < 2  # a mask; numbers of particles will do as well
 motions = particles.move(particles.positions[below] + [0, 0, 1], rows=below)
-for status, time in zip(motions.status, motions.time):
+for status, time in zip(motions.status.tolist(), motions.time.tolist()):
     print(cellwalk.Status(status).name, time)
 ## [rows]
 
