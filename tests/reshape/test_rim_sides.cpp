@@ -132,7 +132,7 @@ TYPED_TEST(RimSides, JoinedVerticesTakeTheSideOfAllTheirEdges) {
     for (std::uint32_t v = 0; v < count; ++v) of_part.push_back(random.below(2) == 0);
     bool agrees = true;
     for (std::uint32_t v = 0; v < count; ++v) {
-      is_above.push_back(of_part[part[v]] != (random.below(3 * count) == 0));
+      is_above.push_back(of_part[part[v]] != (random.below(2 * count) == 0));
       for (std::uint32_t u = 0; u < v; ++u)
         agrees = agrees && (part[u] != part[v] || is_above[u] == is_above[v]);
     }
@@ -141,8 +141,8 @@ TYPED_TEST(RimSides, JoinedVerticesTakeTheSideOfAllTheirEdges) {
     ASSERT_EQ(scene.end_of(at<D>(1, 0)) == Move_end::reached, agrees) << k;
     ++(agrees ? free : blocked);
   }
-  EXPECT_GT(free, bodies / 3);
-  EXPECT_GT(blocked, bodies / 20);
+  EXPECT_GT(free, bodies / 4);
+  EXPECT_GT(blocked, 0);
 }
 
 /// The first and the last place are joined, and both need the second side; one between needs the first. What
