@@ -102,6 +102,9 @@ std::unique_ptr<detail::Body_state<D>> registered(const Snapshot<D>& snapshot, c
     Face_counts uncounted;
     const auto pierced = detail::register_faces(*state, uncounted);
     if (pierced.empty()) return state;
+    for (const detail::Pierced_face& of : pierced)
+      if (detail::is_pierced_on_all_sides(*state, of))
+        detail::refuse_pierced(*state, of, Error_code::outside);
     // The faces may pass on other sides of walls than those which the edges prefer.
     const detail::Side_search search =
         detail::find_sides_of_faces(*state, detail::sides_left(snapshot, locator, soup));

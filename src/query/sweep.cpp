@@ -45,7 +45,7 @@ std::list<Start<D>> on_all_sides(const Snapshot<D>& snapshot, const std::list<St
                                  Walk_counts& counts) {
   std::list<Start<D>> found;
   for (const Start<D>& start : starts)
-    for (const Chain& chain : detail::all_chains(snapshot, start.p, start.q, counts)) {
+    for (const Chain& chain : detail::all_chains(snapshot, start.p, start.q, counts).chains) {
       const Start<D> other{start.p, start.q, chain};
       found.push_back(other);
     }

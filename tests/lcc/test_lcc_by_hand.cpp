@@ -12,6 +12,7 @@
 #include <CGAL/version.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <optional>
@@ -244,6 +245,42 @@ TEST(LccByHand, BothSearchesFindTheCornerThatAnEdgeMeets) {
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->time, Rational(1) / 2);
   }
+}
+
+/// The edge meets a vertex of one wall and the interior of an edge of another one at the same time: the
+/// vertex is the contact, in whatever order the facets of their cell are listed.
+TEST(LccByHand, OfMeetingsAtOneTimeThatOfTheLowestDimensionIsTheContact) {
+  std::array<int, 3> axis{0, 1, 2};
+  do {
+    const auto at = [&](double x, double y, double z) {
+      std::array<double, 3> r{};
+      r[axis[0]] = x, r[axis[1]] = y, r[axis[2]] = z;
+      return Point_3(r[0], r[1], r[2]);
+    };
+    Complex_3 map;
+    add_cubes(map, 3, 3, 3);
+    // Of the cell from (1,1,0) to (2,2,1): the square of x = 2, and that of y = 2.
+    const auto mark = map.get_new_mark();
+    for (auto it = map.darts().begin(); it != map.darts().end(); ++it) {
+      std::array<bool, 2> has{};
+      for (auto d = map.beta<1>(it); d != it; d = map.beta<1>(d)) {
+        has[0] |= map.point(it) == at(2, 1, 0) && map.point(d) == at(2, 2, 1);
+        has[1] |= map.point(it) == at(1, 2, 0) && map.point(d) == at(2, 2, 1);
+      }
+      if ((has[0] || has[1]) && !map.is_marked(it, mark)) mark_facet(map, it, mark);
+    }
+    const Walker<Complex_3, Marked_walls<Complex_3>> walker(map, {map, mark});
+    Counts counts;
+    const auto p = walker.particles_at(at(2.5, 0.25, 1.125)).at(0),
+               q = walker.particles_at(at(0.5, 2.5, 0.25)).at(0);
+    const auto found = exhaustive_search(walker, p, at(2.5, 0.75, 1.375), q, counts);
+    ASSERT_TRUE(found);
+    // On the way from q to (2.5, 0.5, 1.25) lie (1, 2, 0.5) and (2, 1, 1).
+    EXPECT_EQ(found->time, Rational(1) / 2);
+    EXPECT_EQ(found->dimension, 0) << axis[0] << axis[1] << axis[2];
+    EXPECT_EQ(map.point(found->feature), at(2, 1, 1));
+    map.free_mark(mark);
+  } while (std::next_permutation(axis.begin(), axis.end()));
 }
 
 TEST(LccByHand, WallAtTheStandingEnd) {

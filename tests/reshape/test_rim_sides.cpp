@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What lies on the rim of a wall, or is passed by it, takes the side that its edges need, whatever cell it is
 // registered in: by hand.
+#include <cellwalk/internal/kernel/random.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <type_traits>
+#include <vector>
 
+#include "oracle/seed.h"
 #include "reshape/dimensions.h"
 #include "reshape/octahedron.h"
 #include "reshape/star_scene.h"
@@ -82,6 +89,101 @@ TYPED_TEST(RimSides, EachVertexOfABodyTakesItsOwn) {
     // Now those above it are in its way up, and the others in its way down.
     if (above != 0) scene.expect_hit(at<D>(1, 0.125), 0, 1);
     if (above != 15) scene.expect_hit(at<D>(1, -0.125), 0, 1);
+  }
+}
+
+/// Edges in the way of the rim, each from one place of it to the next or to a place above or below the wall.
+template <int D>
+std::unique_ptr<Body<D>> edges_in_the_way(const test::Star_scene<D>& scene, std::uint32_t count,
+                                          const std::vector<std::array<std::uint32_t, 2>>& joined,
+                                          const std::vector<bool>& is_above) {
+  Body_soup<D> soup;
+  soup.edges = joined;
+  for (std::uint32_t k = 0; k < count; ++k) soup.points.push_back(at<D>(0.75 * k / 512, 0));
+  for (std::uint32_t k = 0; k < is_above.size(); ++k) {
+    soup.edges.push_back({k, count + k});
+    soup.points.push_back(at<D>(-1 + 0.125 * (k % 8), is_above[k] ? 1 : -1, 0.125));
+  }
+  std::ranges::sort(soup.edges);
+  soup.edges.erase(std::unique(soup.edges.begin(), soup.edges.end()), soup.edges.end());
+  return std::make_unique<Body<D>>(scene.snapshot, Locator<D>(scene.snapshot), soup);
+}
+
+/// The sides agree if no two places that edges join have edges to different sides of the wall.
+TYPED_TEST(RimSides, JoinedVerticesTakeTheSideOfAllTheirEdges) {
+  constexpr int D = TypeParam::value;
+  Random random(oracle::reseeded(20'261'130));
+  int free = 0, blocked = 0;
+  constexpr int bodies = D == 2 ? 60 : 20;
+  for (int k = 0; k < bodies; ++k) {
+    const auto count = static_cast<std::uint32_t>(2 + random.below(13));
+    std::vector<std::array<std::uint32_t, 2>> joined;
+    std::vector<std::uint32_t> part(count);
+    std::iota(part.begin(), part.end(), 0u);
+    for (std::size_t e = random.below(count); e > 0; --e) {
+      const auto u = static_cast<std::uint32_t>(random.below(count)),
+                 v = static_cast<std::uint32_t>(random.below(count));
+      if (u == v) continue;
+      joined.push_back({std::min(u, v), std::max(u, v)});
+      std::ranges::replace(part, std::uint32_t{part[u]}, std::uint32_t{part[v]});
+    }
+    // Mostly the places of one part have their edges on one side.
+    std::vector<bool> of_part, is_above;
+    for (std::uint32_t v = 0; v < count; ++v) of_part.push_back(random.below(2) == 0);
+    bool agrees = true;
+    for (std::uint32_t v = 0; v < count; ++v) {
+      is_above.push_back(of_part[part[v]] != (random.below(2 * count) == 0));
+      for (std::uint32_t u = 0; u < v; ++u)
+        agrees = agrees && (part[u] != part[v] || is_above[u] == is_above[v]);
+    }
+    test::Star_scene<D> scene(tip_of_four<D>());
+    scene.bodies.push_back(edges_in_the_way(scene, count, joined, is_above));
+    ASSERT_EQ(scene.end_of(at<D>(1, 0)) == Move_end::reached, agrees) << k;
+    ++(agrees ? free : blocked);
+  }
+  EXPECT_GT(free, bodies / 4);
+  EXPECT_GT(blocked, 0);
+}
+
+/// The first and the last place are joined, and both need the second side; one between needs the first. What
+/// the others take does not matter to them.
+TYPED_TEST(RimSides, ChoicesThatDoNotMatterAreNotTried) {
+  constexpr int D = TypeParam::value;
+  for (const bool is_above : {false, true}) {
+    constexpr std::uint32_t count = 24;
+    test::Star_scene<D> scene(tip_of_four<D>());
+    Body_soup<D> soup;
+    for (std::uint32_t k = 0; k < count; ++k) soup.points.push_back(at<D>(0.03125 * k, 0));
+    soup.points.push_back(at<D>(-1, is_above ? 1 : -1, 0.125));
+    soup.points.push_back(at<D>(-1, is_above ? -1 : 1, 0.125));
+    soup.edges = {{0, count - 1}, {1, count + 1}, {count - 1, count}};
+    scene.bodies.push_back(std::make_unique<Body<D>>(scene.snapshot, Locator<D>(scene.snapshot), soup));
+    EXPECT_EQ(scene.end_of(at<D>(1, 0)), Move_end::reached) << is_above;
+  }
+}
+
+/// Only so many combinations of sides are tried: a body that could yield blocks the move then.
+TEST(RimSides, ABodyOfTooManyChoicesBlocksTheMove) {
+  for (const std::uint32_t count : {100u, 516u}) {
+    test::Star_scene<2> scene(tip_of_four<2>());
+    std::vector<bool> is_above;
+    for (std::uint32_t k = 0; k < count; ++k) is_above.push_back(k % 2 == 0);
+    scene.bodies.push_back(edges_in_the_way(scene, count, {}, is_above));
+    const bool is_free = count == 100;
+    double time = -1;
+    for (int tries = 0; tries < 2; ++tries) {
+      Reshaping<2> reshaping(scene.environment, scene.residents(), {.at_contact = At_contact::hold});
+      const Vertex_result<2> result = reshaping.move(0, {1, 0});
+      EXPECT_EQ(result.end == Move_end::reached, is_free) << count;
+      ASSERT_EQ(result.hit.has_value(), !is_free);
+      if (!is_free && tries > 0) {
+        EXPECT_EQ(result.hit->time, time);
+      }
+      if (!is_free) time = result.hit->time;
+      reshaping.finish();
+      EXPECT_EQ(scene.snapshot.point(0), (Point<2>{is_free ? 1.0 : 0.0, 0}));
+      EXPECT_NO_THROW(scene.bodies.front()->validate());
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #ifndef CELLWALK_BODY_REGISTRATION_SIDES_OF_FACES_H
 #define CELLWALK_BODY_REGISTRATION_SIDES_OF_FACES_H
 
+#include <cstddef>
 #include <vector>
 
 #include "body/body_state.h"
@@ -13,11 +14,12 @@ namespace cellwalk::detail {
 enum class Side_search {
   found,
   none,  ///< no choice of sides lets all faces pass
-  ended  ///< after most_face_tests, or where too many faces have a choice: there may be one
+  ended  ///< after most_steps_back, or where an edge has more chains than are listed: there may be one
 };
 
-/// The faces that are tested on some sides before a search ends.
-constexpr std::size_t most_face_tests = 20'000;
+/// The choices that are taken back before a search ends, and as many more for each vertex and edge that has
+/// one.
+constexpr std::size_t most_steps_back = 5'000, most_steps_back_of_choice = 20;
 
 /// Searches sides of walls for the vertices of a body and chains for its edges on which no wall pierces a
 /// face, and registers the body there, with its faces. Preferred are those that its edges alone would take.

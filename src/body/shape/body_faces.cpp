@@ -2,6 +2,7 @@
 // The sweeps of the faces at a vertex: those with a volume, flat ones, and the wedges between them.
 #include "body_faces.h"
 
+#include <cellwalk/internal/edge/closing_face.h>
 #include <cellwalk/internal/edge/flat_faces.h>
 #include <cellwalk/internal/edge/swept_triangle.h>
 #include <cellwalk/internal/edge/triangle.h>
@@ -151,6 +152,13 @@ std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& count
   }
   if (pierced.empty()) body.are_faces_swept = true;
   return pierced;
+}
+
+bool is_pierced_on_all_sides(const Body_state<3>& body, const Pierced_face& pierced) {
+  const auto [u, v, w] = body.topology.faces()[pierced.face];
+  const auto& x = body.positions;
+  Walk_counts uncounted;
+  return place_of_face(*body.snapshot, pierced.wall, {x[u], x[v], x[w]}, uncounted) == Face_at_facet::pierced;
 }
 
 void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code,

@@ -26,6 +26,9 @@ struct Pierced_face {
 /// Registers all faces. Returns those that a wall pierces, ascending: the body must not be used then.
 std::vector<Pierced_face> register_faces(Body_state<3>& body, Face_counts& counts);
 
+/// True if the wall crosses the plane of the face inside it, so that the body passes it on no sides of walls.
+bool is_pierced_on_all_sides(const Body_state<3>& body, const Pierced_face& pierced);
+
 /// \param has_search_ended there may be sides of walls on which the body passes, but they were not found
 /// \throw Error(code) naming the face
 [[noreturn]] void refuse_pierced(const Body_state<3>& body, const Pierced_face& pierced, Error_code code,

@@ -4,10 +4,6 @@
 
 #include <cellwalk/internal/walk/star.h>
 
-#include <optional>
-
-#include "edge/chain/chain_side.h"
-
 namespace cellwalk::detail {
 namespace {
 
@@ -20,7 +16,7 @@ bool has_in_facet(const Exact_edge& edge, Half_facet f, const Fraction& t) {
 
 Supporting_wall_search::Supporting_wall_search(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                                                const Swept_in_plane& swept, const Candidate_walls& candidates)
-    : snapshot_(snapshot), triangle_(triangle), swept_(swept) {
+    : snapshot_(snapshot), triangle_(triangle), swept_(swept), walls_(candidates.walls) {
   for (const Half_facet wall : candidates.walls) add(wall);
   pair_one_sided();
   groups_.resize(patches_.size());
@@ -118,29 +114,45 @@ bool Supporting_wall_search::take(Half_facet half) {
   return is_news;
 }
 
+// Where walls near begin and end along an edge, ascending: between two of these places nothing changes.
+std::vector<Fraction> Supporting_wall_search::ends_along(const Exact_edge& edge) const {
+  std::vector<Fraction> ends;
+  for (const Half_facet wall : walls_)
+    if (const std::optional<Span> met = edge.in_facet(wall)) ends.insert(ends.end(), {met->low, met->high});
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
 // Chooses the sides on which the chain of an edge passes.
 void Supporting_wall_search::follow(const Face_side& side) {
   if (side.from == side.to) return;
   const Exact_edge edge(snapshot_, side.from, side.to);
-  std::optional<Fraction> t;  // where the edge meets the wall
-  std::vector<Cell> linked;
-  const auto is_linked = [&](const Patch& patch) {
-    return std::find(linked.begin(), linked.end(), snapshot_.cell_of(patch.half)) != linked.end();
-  };
-  for (const Patch& patch : patches_) {
-    if (!patch.is_second) {
-      const std::optional<Span> met = edge.in_facet(patch.half);
-      t.reset();
-      if (!met) continue;
-      t = middle(met->low, met->high);
-      linked = linked_cells(edge, side.start, *side.chain.chain, *t);
+  std::vector<Fraction> ends;
+  for (std::size_t first = 0; first < patches_.size(); ++first) {
+    if (patches_[first].is_second) continue;
+    const std::optional<Span> met = edge.in_facet(patches_[first].half);
+    if (!met) continue;
+    if (ends.empty()) ends = ends_along(edge);
+    std::vector<Fraction> points;
+    if (!(met->low < met->high)) points.push_back(met->low);
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+      if (ends[k] < ends[k + 1] && !(ends[k] < met->low) && !(met->high < ends[k + 1]))
+        points.push_back(middle(ends[k], ends[k + 1]));
+    for (const Fraction& t : points) {
+      const std::vector<Cell> linked = linked_cells(edge, side.start, *side.chain.chain, t);
+      const auto is_linked = [&](const Patch& patch) {
+        return std::find(linked.begin(), linked.end(), snapshot_.cell_of(patch.half)) != linked.end();
+      };
+      for (std::size_t k = first; k < patches_.size() && (k == first || patches_[k].is_second); ++k) {
+        const Patch& patch = patches_[k];
+        if (!is_linked(patch)) continue;
+        // Around the rim of a wall, the edge is linked with both sides.
+        const bool is_round = std::any_of(patch.behind.begin(), patch.behind.end(), [&](std::size_t other) {
+          return is_linked(patches_[other]) && has_in_facet(edge, patches_[other].half, t);
+        });
+        if (!is_round) take(patch);
+      }
     }
-    if (!t || !is_linked(patch)) continue;
-    // Around the rim of a wall, the edge is linked with both sides.
-    const bool is_round = std::any_of(patch.behind.begin(), patch.behind.end(), [&](std::size_t k) {
-      return is_linked(patches_[k]) && has_in_facet(edge, patches_[k].half, *t);
-    });
-    if (!is_round) take(patch);
   }
 }
 

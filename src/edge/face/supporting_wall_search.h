@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "edge/chain/chain_side.h"
 #include "find_supporting_walls.h"
 
 namespace cellwalk::detail {
@@ -20,7 +21,7 @@ class Supporting_wall_search {
  public:
   /// \param triangle of the plane; where the face is in the end
   /// \param swept the area that it swept to come there
-  /// These and the environment outlive this.
+  /// These two and the environment outlive this.
   Supporting_wall_search(const Snapshot<3>& snapshot, const Triangle_in_plane& triangle,
                          const Swept_in_plane& swept, const Candidate_walls& candidates);
 
@@ -96,6 +97,7 @@ class Supporting_wall_search {
   template <class Patches>
   void join(const Patches& others, std::size_t with);
   void bound(const Ridge& ridge);
+  std::vector<Fraction> ends_along(const Exact_edge& edge) const;
   /// Puts the face on the side of a patch. It is pierced if it lies on the other side too, or if walls
   /// exclude the side.
   void take(const Patch& patch);
@@ -105,6 +107,7 @@ class Supporting_wall_search {
   const Snapshot<3>& snapshot_;
   const Triangle_in_plane& triangle_;  ///< the face
   const Swept_in_plane& swept_;
+  const decltype(Candidate_walls::walls) walls_;  ///< all near
   std::vector<Patch> patches_;
   std::vector<Ridge> ridges_;
   std::vector<Group> groups_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 namespace cellwalk::detail {
 
@@ -55,7 +56,8 @@ bool Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group)
   const auto try_choice = [&] {
     is_free_ = true;
     collision_.reset();
-    passed_ = with_choice_ = blocked_after_ = 0;
+    passed_ = with_choice_ = 0;
+    blamed_.clear();
     shorten(moved_, moved);
     shorten(chains_, chains);
     shorten(supporting_walls_, walls);
@@ -83,12 +85,14 @@ bool Vertex_trial<D>::try_group(const Moving_star<D>& star, std::uint32_t group)
 }
 
 /// Each vertex on a side of its own, and each edge on one on which it is free then. What blocks a combination
-/// first blocks all that have the same choices up to those on which it depends, no later: they are left out.
+/// first blocks all that agree in the choices on which it depends, no later: they are left out.
 template <int D>
 bool Vertex_trial<D>::try_combinations(const std::function<bool()>& try_choice,
                                        std::optional<Collision>& last) {
   combines_ = follows_all_ = true;
   combined_.clear();
+  followed_vertices_.clear();
+  followed_edges_.clear();
   bool is_free = false;
   for (std::size_t tries = 0; tries < most_combinations; ++tries) {
     is_free = try_choice();
@@ -100,14 +104,19 @@ bool Vertex_trial<D>::try_combinations(const std::function<bool()>& try_choice,
   return is_free;
 }
 
-/// Another side at the last choice that leaves one, of those that may help; false if there is none.
+/// Another side at the last choice that leaves one, of those that may help; false if there is none. Where a
+/// choice leaves none, those may help on which it depends what blocked on its sides.
 template <int D>
 bool Vertex_trial<D>::take_next() {
-  combined_.resize(std::min(combined_.size(), blocked_after_));
-  while (!combined_.empty() && combined_.back().taken + 1 == combined_.back().sides) combined_.pop_back();
-  if (combined_.empty()) return false;
-  ++combined_.back().taken;
-  return true;
+  while (!blamed_.empty()) {
+    combined_.resize(*blamed_.rbegin());
+    Choice& last = combined_.back();
+    blamed_.erase(std::prev(blamed_.end()));
+    last.blamed.merge(blamed_);
+    if (++last.taken < last.sides) return true;
+    blamed_ = std::move(last.blamed);
+  }
+  return false;
 }
 
 /// The side of the vertex that is followed next.
@@ -123,7 +132,7 @@ void Vertex_trial<D>::note_choices(std::size_t choices) {
   choices_ = std::max(choices_, choices);
   with_choice_ += choices > 1;
   if (!combines_) return;
-  if (passed_ == combined_.size()) combined_.push_back({choices, 0});
+  if (passed_ == combined_.size()) combined_.push_back({choices, 0, {}});
   ++passed_;
 }
 
@@ -191,10 +200,11 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
   }
   // Where something is touched as well, that may block it before it is hit.
   if (met.meeting == Encounter::touch || (met.touches && !any_)) {
-    Followed_vertex<D> followed = follow_vertex(star, p, choice_of_next(), to_dead_end_);
+    vertex.taken = choice_of_next();
+    Followed_vertex<D> followed = follow(star, vertex.member);
     // Of a vertex that is blocked, sides matter to its edges until then.
     note_choices(followed.is_free() || !any_ ? std::max<std::size_t>(followed.choices, 1) : 1);
-    vertex.depends_on = passed_;
+    vertex.choice = passed_;
     dead_ends_ = std::max(dead_ends_, followed.dead_ends);
     ++counts_.followed;
     vertex.stays = std::move(followed.stays);
@@ -204,7 +214,7 @@ bool Vertex_trial<D>::try_vertex(const Moving_star<D>& star, Moved_vertex& verte
     }
     take(followed.collision, met);
   }
-  block(std::move(met), vertex.member, vertex.depends_on);
+  block(std::move(met), vertex.member, {&vertex});
   return false;
 }
 
@@ -267,10 +277,7 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
       take(followed.collision, met);
     }
     // A blocked end decides for an edge that is only touched until then.
-    if (are_ends_free || met.meeting == Encounter::hit) {
-      const auto depth = [](const Moved_vertex* moved) { return moved ? moved->depends_on : 0; };
-      block(std::move(met), edge, std::max(depth(moved_p), depth(moved_q)));
-    }
+    if (are_ends_free || met.meeting == Encounter::hit) block(std::move(met), edge, {moved_p, moved_q});
     return false;
   }
   if (is_blocked(moved_p) || is_blocked(moved_q)) return false;
@@ -280,10 +287,31 @@ bool Vertex_trial<D>::try_edge(const Moving_star<D>& star, Member edge) {
   return true;
 }
 
+/// Follows a vertex on the side that is its turn.
+template <int D>
+Followed_vertex<D> Vertex_trial<D>::follow(const Moving_star<D>& star, Member vertex) {
+  const Particle<D>& p = groups_.particle(vertex);
+  if (!combines_) return follow_vertex(star, p, choice_, to_dead_end_);
+  const std::size_t side = choice_of_next();
+  const auto [known, is_new] = followed_vertices_.try_emplace({vertex, side});
+  if (is_new) known->second = follow_vertex(star, p, side);
+  return known->second;
+}
+
 /// Follows an edge that walls touch, whose ends are free.
 template <int D>
 Followed_edge Vertex_trial<D>::follow(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
                                       const Moved_vertex* moved_q) {
+  if (!combines_) return follow_anew(star, edge, moved_p, moved_q);
+  const auto side = [](const Moved_vertex* moved) { return moved ? moved->taken : 0; };
+  const auto [known, is_new] = followed_edges_.try_emplace({edge, side(moved_p), side(moved_q)});
+  if (is_new) known->second = follow_anew(star, edge, moved_p, moved_q);
+  return known->second;
+}
+
+template <int D>
+Followed_edge Vertex_trial<D>::follow_anew(const Moving_star<D>& star, Member edge,
+                                           const Moved_vertex* moved_p, const Moved_vertex* moved_q) {
   const auto [u, v] = groups_.all()[edge.group].edges[edge.number];
   const auto end = [&](std::uint32_t vertex, const Moved_vertex* moved) {
     const Particle<D>& before = groups_.particle({edge.group, vertex});
@@ -326,13 +354,20 @@ bool Vertex_trial<D>::meets(const Moving_star<D>& star, std::span<const Point<D>
 }
 
 /// Notes that something is in the way.
-/// \param depends_on the number of combined choices, the first, of which another one may let it pass
+/// \param vertices on whose sides it depends; null for those that are not near
 template <int D>
-void Vertex_trial<D>::block(Star_meeting met, Member member, std::size_t depends_on) {
+void Vertex_trial<D>::block(Star_meeting met, Member member,
+                            std::initializer_list<const Moved_vertex*> vertices) {
   ++(met.meeting == Encounter::hit ? counts_.hits : counts_.touches);
+  std::set<std::size_t> blamed;
+  for (const Moved_vertex* vertex : vertices)
+    if (combines_ && vertex && vertex->choice > 0) blamed.insert(vertex->choice);
+  const auto last = [](const std::set<std::size_t>& choices) {
+    return choices.empty() ? 0 : *choices.rbegin();
+  };
   const bool is_first = met.collision ? !collision_ || met.collision->time < collision_->time
-                                      : is_free_ || (!collision_ && depends_on < blocked_after_);
-  if (is_first) blocked_after_ = depends_on;
+                                      : is_free_ || (!collision_ && last(blamed) < last(blamed_));
+  if (is_first) blamed_ = std::move(blamed);
   is_free_ = false;
   if (!met.collision) return;
   met.collision->group = member.group;

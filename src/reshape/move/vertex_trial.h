@@ -12,8 +12,11 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,7 +59,8 @@ class Vertex_trial {
     Particle<D> now;
     std::vector<Cell_until> stays;  ///< if it was followed
     bool keeps_cell, is_free;
-    std::size_t depends_on = 0;  ///< the number of combined choices up to its own
+    std::size_t taken = 0;   ///< its side
+    std::size_t choice = 0;  ///< the number of its combined choice, from 1 on; 0 if it has none
   };
   void find_groups_near(const Moving_star<D>& star);
   bool try_group(const Moving_star<D>& star, std::uint32_t group);
@@ -69,11 +73,14 @@ class Vertex_trial {
   bool has_faces_near(const Moving_star<D>& star, std::uint32_t number) const;
   void try_faces(const Moving_star<D>& star, std::uint32_t number);
   bool try_edge(const Moving_star<D>& star, Member edge);
+  Followed_vertex<D> follow(const Moving_star<D>& star, Member vertex);
   Followed_edge follow(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
                        const Moved_vertex* moved_q);
+  Followed_edge follow_anew(const Moving_star<D>& star, Member edge, const Moved_vertex* moved_p,
+                            const Moved_vertex* moved_q);
   bool try_face(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
   Face_at_star after(const Moving_star<D>& star, Member face, std::span<const Point<D>> points);
-  void block(Star_meeting met, Member member, std::size_t depends_on);
+  void block(Star_meeting met, Member member, std::initializer_list<const Moved_vertex*> vertices);
   bool try_combinations(const std::function<bool()>& try_choice, std::optional<Collision>& last);
   bool take_next();
   std::size_t choice_of_next() const;
@@ -97,12 +104,16 @@ class Vertex_trial {
   /// The side that a followed vertex takes, of as many, where each takes its own.
   struct Choice {
     std::size_t sides, taken;
+    std::set<std::size_t> blamed{};  ///< those before it on which depends what blocked on the sides taken
   };
   std::vector<Choice> combined_;
-  bool combines_ = false;          ///< each takes its own
-  std::size_t passed_ = 0;         ///< of the combined choices, by this trial
-  std::size_t with_choice_ = 0;    ///< vertices that have one, by this trial
-  std::size_t blocked_after_ = 0;  ///< only other ones of so many choices, the first, may let it pass
+  /// By member and choices of vertices, since combinations repeat them.
+  std::map<std::tuple<Member, std::size_t>, Followed_vertex<D>> followed_vertices_;
+  std::map<std::tuple<Member, std::size_t, std::size_t>, Followed_edge> followed_edges_;
+  bool combines_ = false;         ///< each takes its own
+  std::size_t passed_ = 0;        ///< of the combined choices, by this trial
+  std::size_t with_choice_ = 0;   ///< vertices that have one, by this trial
+  std::set<std::size_t> blamed_;  ///< only another one of these choices may let it pass
   bool any_ = false;
   std::uint64_t near_ = 0, certified_ = 0;
   // By the present choice:

@@ -40,6 +40,9 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
     ++counts_.apart;
     return true;
   }
+  const auto corner = [&](std::size_t k) {
+    return find({face.group, groups_.all()[face.group].faces[face.number][k]});
+  };
   if (met.meeting == Encounter::touch) {
     Face_at_star result = after(star, face, points);
     if (result.is_free) {
@@ -49,13 +52,10 @@ bool Vertex_trial<D>::try_face(const Moving_star<D>& star, Member face, std::spa
     }
     // Once something is in the way, only further hits matter.
     if (!result.collision && !is_free_) return false;
-    if (!result.collision) {
-      const auto& at = groups_.all()[face.group].faces[face.number];
-      follow_kept(star, {find({face.group, at[0]}), find({face.group, at[1]}), find({face.group, at[2]})});
-    }
+    if (!result.collision) follow_kept(star, {corner(0), corner(1), corner(2)});
     take(result.collision, met);
   }
-  block(std::move(met), face, passed_);
+  block(std::move(met), face, {corner(0), corner(1), corner(2)});
   return false;
 }
 

@@ -96,7 +96,7 @@ class By_brute_force {
       return;
     }
     const auto [u, v] = soup_.edges[e];
-    for (const Chain& chain : detail::all_chains(snapshot_, particles_[u], particles_[v], walks_)) {
+    for (const Chain& chain : detail::all_chains(snapshot_, particles_[u], particles_[v], walks_).chains) {
       chains_[e] = chain;
       try_edges(e + 1);
     }

@@ -9,11 +9,17 @@
 
 namespace cellwalk::detail {
 
+struct All_chains {
+  std::vector<Chain> chains;
+  bool are_all = true;  ///< no others were left out
+};
+
 /// The chains of pq, no two of them equal, in the order in which a walk from p prefers their sides.
-/// Cost: that of a walk for each combination of sides; of more than 256 the first ones.
+/// Cost: that of a walk for each combination of sides. Of more than 256 combinations the first ones are
+/// tried, and those of the second side of all walls, of the third, and so on, whose chains come second.
 template <int D>
-std::vector<Chain> all_chains(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
-                              Walk_counts& counts);
+All_chains all_chains(const Snapshot<D>& snapshot, const Particle<D>& p, const Particle<D>& q,
+                      Walk_counts& counts);
 
 }  // namespace cellwalk::detail
 

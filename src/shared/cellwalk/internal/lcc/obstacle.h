@@ -123,9 +123,7 @@ class Swept_triangle {
     const auto time_of = [&](const Exact_point& x) {
       return Rational((x[axis] - a_[axis]) / (b_[axis] - a_[axis]));
     };
-    Rational begin = time_of(q_);
-    if (begin >= 1) return {};  // the edge gets shorter
-    begin = std::max<Rational>(begin, 0);
+    const Rational begin = std::max<Rational>(time_of(q_), 0);
     // Where uv meets the line, its product with the direction is 0.
     const Exact_point way = from_a(b_);
     const Normal at_u = cross(from_a(u), way), at_v = cross(from_a(v), way);
@@ -139,7 +137,7 @@ class Swept_triangle {
     const Rational one = at_u_time + part.first * slope, other = at_u_time + part.last * slope;
     const Rational first = std::max<Rational>(begin, std::min<Rational>(one, other));
     const Rational last = std::min<Rational>(1, std::max<Rational>(one, other));
-    if (first > last || last <= begin) return {};
+    if (first > last || last <= begin) return {};  // always, if the edge gets shorter
     return Meeting{first, CGAL::is_zero(slope) ? part.first : Rational((first - at_u_time) / slope)};
   }
 
