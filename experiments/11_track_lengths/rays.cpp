@@ -10,7 +10,7 @@
 namespace cellwalk::track_lengths {
 namespace {
 
-constexpr double shortest = 1, longest = 7;  // rays, in sides
+constexpr double shortest = 1, longest = 9;  // rays, in sides
 constexpr int most_attempts = 1000;
 
 struct Ends {
@@ -115,7 +115,7 @@ class Ray_source {
   std::optional<Ends> along_edge() {
     const std::array<Point<3>, 4> v = corners(random_cell());
     const auto at = [&](double t) { return exact_sum<2>({{{1 - t, v[0]}, {t, v[1]}}}); };
-    return ends(at(integer(-3, 0)), at(integer(1, 4)));
+    return ends(at(integer(-6, 0)), at(integer(1, 7)));
   }
 
   std::optional<Ends> in_plane() {
@@ -123,7 +123,7 @@ class Ray_source {
     const auto at = [&](double s, double t) {
       return exact_sum<3>({{{1 - s - t, v[0]}, {s, v[1]}, {t, v[2]}}});
     };
-    const auto from = at(integer(-3, 3), integer(-3, 3)), to = at(integer(-3, 3), integer(-3, 3));
+    const auto from = at(integer(-5, 5), integer(-5, 5)), to = at(integer(-5, 5), integer(-5, 5));
     return ends(from, to);
   }
 
@@ -168,7 +168,7 @@ class Ray_source {
     Ends ray;
     for (std::size_t k = 0; k < 3; ++k) {
       ray.from[k] = v[k] + 0.5 * integer(-1, 1);
-      ray.to[k] = ray.from[k] + (random_.chance(0.4) ? 0 : 0.5 * integer(-10, 10));
+      ray.to[k] = ray.from[k] + (random_.chance(0.4) ? 0 : 0.5 * integer(-14, 14));
     }
     return ray;
   }
@@ -188,7 +188,7 @@ class Ray_source {
 std::string_view name_of(Ray_kind kind) { return kind == Ray_kind::chords ? "chords" : "degenerate"; }
 
 Rays draw(const World& world, Ray_kind kind, std::size_t count, std::uint64_t seed) {
-  constexpr int most_outside = 2;  // in a row; the next ray may leave, and meets a wall
+  constexpr int most_outside = 4;  // in a row; the next ray may leave, and meets a wall
   Ray_source source(world, seed);
   Rays rays;
   int outside = 0;

@@ -36,7 +36,7 @@ struct Amount {
   std::size_t many_tetrahedra, timed_rays, timed_rays_in_many;  // of what is timed
 };
 constexpr Amount full{10'000, 1'250'000, 10'000, 125, 200'000, 100'000, 8, 1'000'000, 4'000, 20'000};
-constexpr Amount quick{1'000, 2'000, 500, 100, 2'000, 1'000, 2, 20'000, 500, 500};
+constexpr Amount quick{6'000, 2'000, 500, 100, 2'000, 1'000, 2, 20'000, 500, 500};
 
 std::vector<std::unique_ptr<World>> worlds(const Plan& plan, const Amount& amount, const fs::path& mesh) {
   std::vector<std::unique_ptr<World>> all;

@@ -49,12 +49,16 @@ double position_of_edge(const Line& line, const Kernel::Point_3& p, const Kernel
   return (dot(to, line.direction) * of_edge - dot(to, edge) * cross) / denominator;
 }
 
-/// Where a ray enters the cell.
-double entry(const Traversal& at, Delaunay::Cell_handle cell, const Line& line,
-             const Plain_planes<double>& planes) {
+/// A vertex, an edge or a facet of a cell.
+struct Simplex {
   Delaunay::Locate_type type{};
   int i = 0, j = 0;
-  at.entry(type, i, j);
+};
+
+/// Where a ray passes a simplex.
+double position(const Simplex& simplex, Delaunay::Cell_handle cell, const Line& line,
+                const Plain_planes<double>& planes) {
+  const auto [type, i, j] = simplex;
   switch (type) {
     case Delaunay::VERTEX:
       return line.position(cell->vertex(i)->point());
@@ -106,25 +110,29 @@ void Traverser::run(const Rays& rays, Peer_rows& rows) const {
     const Point<3>& target = rays.targets[ray];
     const Line line(start.position, target);
     const std::size_t begin = list.cells.size();
-    double position = 0;
+    double last = 0;
+    const auto end_piece = [&](double next) {
+      list.lengths.push_back(next - last);
+      last = next;
+    };
     auto how = Peer_row::arrived;
-    for (Traversal at(&delaunay, point(start.position), point(target),
-                      world_.triangulation->cell(start.cell));
-         at.has_next(); ++at) {
+    Traversal at(&delaunay, point(start.position), point(target), world_.triangulation->cell(start.cell));
+    for (Delaunay::Cell_handle before; at.has_next(); ++at) {
       const Delaunay::Cell_handle cell = at.handle();
+      Simplex simplex;
       if (delaunay.is_infinite(cell)) {
+        if (before == Delaunay::Cell_handle()) continue;
+        at.exit(simplex.type, simplex.i, simplex.j);
+        end_piece(position(simplex, before, line, planes_[before->info()]));
         how = Peer_row::left;
-        continue;
+        break;
       }
-      how = Peer_row::arrived;
-      if (list.cells.size() > begin) {
-        const double next = entry(at, cell, line, planes_[cell->info()]);
-        list.lengths.push_back(next - position);
-        position = next;
-      }
+      at.entry(simplex.type, simplex.i, simplex.j);
+      if (before != Delaunay::Cell_handle()) end_piece(position(simplex, cell, line, planes_[cell->info()]));
       list.cells.push_back(cell->info());
+      before = cell;
     }
-    if (list.cells.size() > begin) list.lengths.push_back(line.length - position);
+    if (how == Peer_row::arrived && list.cells.size() > begin) end_piece(line.length);
     rows.rows.push_back({how, 0, begin, list.cells.size()});
   }
 }
