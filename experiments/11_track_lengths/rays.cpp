@@ -188,19 +188,15 @@ class Ray_source {
 std::string_view name_of(Ray_kind kind) { return kind == Ray_kind::chords ? "chords" : "degenerate"; }
 
 Rays draw(const World& world, Ray_kind kind, std::size_t count, std::uint64_t seed) {
-  constexpr int most_outside = 4;  // in a row; the next ray may leave, and meets a wall
+  constexpr std::size_t stray =
+      64;  // of so many rays one is drawn as it comes: it may leave, and meets a wall
   Ray_source source(world, seed);
   Rays rays;
-  int outside = 0;
   while (rays.size() < count) {
     const Ends ends = kind == Ray_kind::chords ? source.chord() : source.degenerate();
     const auto particle = world.locator.particle_at(ends.from);
     if (!particle || ends.from == ends.to) continue;
-    if (outside < most_outside && !world.locator.particle_at(ends.to)) {
-      ++outside;
-      continue;
-    }
-    outside = 0;
+    if (rays.size() % stray != 0 && !world.locator.particle_at(ends.to)) continue;
     rays.starts.push_back(*particle);
     rays.targets.push_back(ends.to);
   }

@@ -35,7 +35,7 @@ struct Amount {
   int most_threads;
   std::size_t many_tetrahedra, timed_rays, timed_rays_in_many;  // of what is timed
 };
-constexpr Amount full{10'000, 1'250'000, 10'000, 125, 200'000, 100'000, 8, 1'000'000, 4'000, 20'000};
+constexpr Amount full{10'000, 1'250'000, 10'000, 125, 200'000, 100'000, 8, 1'000'000, 4'000, 40'000};
 constexpr Amount quick{6'000, 2'000, 500, 100, 2'000, 1'000, 2, 20'000, 500, 500};
 
 std::vector<std::unique_ptr<World>> worlds(const Plan& plan, const Amount& amount, const fs::path& mesh) {
@@ -127,7 +127,7 @@ class Check_tables {
 void count_failures(const Plan& plan, const Amount& amount, const World& world, io::Csv_writer& table) {
   for (const Ray_kind kind : ray_kinds) {
     const Rays rays = draw(world, kind, amount.rays_of_peers, part_seed(plan.seed, "peers"));
-    for (const Method_result& method : compare(world, rays, 0).methods) {
+    for (const Method_result& method : compare(world, rays, 0, false).methods) {
       const Failures& f = method.failures;
       if (method.is_peer)
         table.row(world.name, name_of(kind), method.method, f.rays, f.endless, f.lost, f.wrong_cells,
@@ -136,10 +136,11 @@ void count_failures(const Plan& plan, const Amount& amount, const World& world, 
   }
 }
 
-/// Times on the given rays; both tables have a row for each method.
-void time(const Plan& plan, const World& world, Ray_kind kind, std::size_t count, io::Csv_writer& table) {
+/// Times; a row for each method.
+void time(const Plan& plan, const World& world, Ray_kind kind, std::size_t count, bool in_cache,
+          io::Csv_writer& table) {
   const Rays rays = draw(world, kind, count, part_seed(plan.seed, "times"));
-  const Comparison comparison = compare(world, rays, plan.rounds);
+  const Comparison comparison = compare(world, rays, plan.rounds, in_cache);
   const auto crossings = static_cast<double>(comparison.crossings);
   const double of_trace = experiments::median(comparison.methods.front().seconds);
   for (const Method_result& method : comparison.methods) {
@@ -170,11 +171,11 @@ void run(const Plan& plan, const fs::path& mesh, const fs::path& folder) {
     checks.check_all(plan, amount, *world);
     count_failures(plan, amount, *world, failed);
     if (is_timed)
-      for (const Ray_kind kind : ray_kinds) time(plan, *world, kind, amount.timed_rays, *times);
+      for (const Ray_kind kind : ray_kinds) time(plan, *world, kind, amount.timed_rays, true, *times);
   }
   if (is_timed) {
     const auto many = random_points(amount.many_tetrahedra, part_seed(plan.seed, "many points"));
-    for (const Ray_kind kind : ray_kinds) time(plan, *many, kind, amount.timed_rays_in_many, *times);
+    for (const Ray_kind kind : ray_kinds) time(plan, *many, kind, amount.timed_rays_in_many, false, *times);
     times->commit();
   }
   failed.commit();

@@ -75,7 +75,7 @@ std::vector<Method> all_methods(const World& world, const Rays& rays, const Trac
 
 }  // namespace
 
-Comparison compare(const World& world, const Rays& rays, int rounds) {
+Comparison compare(const World& world, const Rays& rays, int rounds, bool warms_up) {
   const Tracer<3> tracer(world.snapshot());
   Traces traces;
   std::vector<Particle<3>> particles;
@@ -85,6 +85,10 @@ Comparison compare(const World& world, const Rays& rays, int rounds) {
     comparison.methods.push_back({method.name, method.rows != nullptr, {}, {}});
   for (int round = 0; round <= rounds; ++round)
     for (std::size_t i = 0; i < methods.size(); ++i) {
+      if (warms_up && round > 0) {
+        methods[i].prepare();
+        methods[i].run();
+      }
       methods[i].prepare();
       const double start = experiments::processor_seconds();
       methods[i].run();

@@ -24,7 +24,8 @@ struct Comparison {
 };
 
 /// \param rounds of each method, timed after one that is not
-Comparison compare(const World& world, const Rays& rays, int rounds);
+/// \param warms_up each timed run follows another one of the same method, which leaves its data in the cache
+Comparison compare(const World& world, const Rays& rays, int rounds, bool warms_up);
 
 }  // namespace cellwalk::track_lengths
 

@@ -39,13 +39,14 @@ double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The point of the ray nearest to the line of an edge.
+/// The point of the ray nearest to the line of an edge; the nearer end of one that lies on the ray.
 double position_of_edge(const Line& line, const Kernel::Point_3& p, const Kernel::Point_3& q) {
   const std::array<double, 3> edge{q.x() - p.x(), q.y() - p.y(), q.z() - p.z()},
       to{p.x() - line.from[0], p.y() - line.from[1], p.z() - line.from[2]};
   const double of_edge = dot(edge, edge), cross = dot(edge, line.direction);
   const double denominator = of_edge - cross * cross;
-  if (!(denominator > 0)) return line.position(p);
+  constexpr double parallel = 1e-12;
+  if (denominator <= parallel * of_edge) return std::min(line.position(p), line.position(q));
   return (dot(to, line.direction) * of_edge - dot(to, edge) * cross) / denominator;
 }
 
