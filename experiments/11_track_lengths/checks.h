@@ -13,10 +13,10 @@
 
 namespace cellwalk::track_lengths {
 
-/// Sums over rays. `broken` rows: a facet crossed does not lead on from the cell before, is a wall, or the last
-/// one leads elsewhere than to the end; the cells of the pieces are not among those passed, in order; a length
-/// is negative; or the sum of all is more than an ulp off the length of a motion that arrives, or that much
-/// above it if a wall blocks it.
+/// Sums over rays. `broken` rows: a facet crossed does not lead on from the cell before, is a wall, or the
+/// last one leads elsewhere than to the end; the cells of the pieces are not among those passed, in order; a
+/// length is negative; or the sum of all is more than an ulp off the length of a motion that arrives, or that
+/// much above it if a wall blocks it.
 struct Check_counts {
   std::uint64_t rays = 0, pieces = 0, crossings = 0;
   std::uint64_t blocked = 0;  ///< by walls

@@ -13,8 +13,8 @@
 
 namespace cellwalk::track_lengths {
 
-/// Rays by the first fault that they have. Peers are granted a ten-thousandth of a side: so far a piece may lie
-/// beside its cell, and a sum be off.
+/// Rays by the first fault that they have. Peers are granted a ten-thousandth of a side: so far a piece may
+/// lie beside its cell, and a sum be off.
 struct Failures {
   std::uint64_t rays = 0;
   std::uint64_t endless = 0;      ///< the walk had no end

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Traces rays through tetrahedra, judges their lengths, and compares with peers; writes checks.csv, threads.csv,
-// failures.csv, manifest.json and, if it is to be timed, times.csv.
+// Traces rays through tetrahedra, judges their lengths, and compares with peers; writes checks.csv,
+// threads.csv, failures.csv, manifest.json and, if it is to be timed, times.csv.
 //
 //   track_lengths -o DIR [--mesh FILE] [--quick] [--threads N] [--rounds N] [--seed N] [--commit NAME]
 #include <CLI/CLI.hpp>

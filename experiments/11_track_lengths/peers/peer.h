@@ -19,8 +19,8 @@ struct Peer_row {
   std::size_t begin = 0, end = 0;
 };
 
-/// Pieces in several lists, so that rays that are followed together each write to one. Lists may be longer than
-/// what the rows use.
+/// Pieces in several lists, so that rays that are followed together each write to one. Lists may be longer
+/// than what the rows use.
 struct Peer_rows {
   struct List {
     std::vector<std::uint32_t> cells;  ///< names

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The plain walk in floating point: in each tetrahedron the exit is the facet whose plane the ray meets first
-// among those that it approaches from inside. No branch chooses it, there is no tolerance, and the length of a
-// piece is the difference of two positions. Several rays may be followed together, so that the processor does
-// not wait for one.
+// among those that it approaches from inside. No branch chooses it, there is no tolerance, and the length of
+// a piece is the difference of two positions. Several rays may be followed together, so that the processor
+// does not wait for one.
 #ifndef CELLWALK_EXPERIMENTS_TRACK_LENGTHS_PEERS_PLAIN_STEPS_H
 #define CELLWALK_EXPERIMENTS_TRACK_LENGTHS_PEERS_PLAIN_STEPS_H
 

@@ -11,8 +11,8 @@
 
 namespace cellwalk::track_lengths {
 
-/// The planes of a snapshot of tetrahedra, and its neighbours behind passable facets. Facet i of a cell is that
-/// of the snapshot.
+/// The planes of a snapshot of tetrahedra, and its neighbours behind passable facets. Facet i of a cell is
+/// that of the snapshot.
 template <class Real>
 struct Plain_tables {
   explicit Plain_tables(const Snapshot<3>& snapshot);
