@@ -9,7 +9,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,7 +37,7 @@ struct Amount {
   int most_threads;
   std::size_t many_tetrahedra, timed_rays, timed_rays_in_many;  // of what is timed
 };
-constexpr Amount full{10'000, 1'250'000, 10'000, 125, 200'000, 100'000, 8, 1'000'000, 4'000, 40'000};
+constexpr Amount full{10'000, 1'250'000, 10'000, 125, 50'000, 50'000, 8, 1'000'000, 4'000, 40'000};
 constexpr Amount quick{6'000, 2'000, 500, 100, 2'000, 1'000, 2, 20'000, 500, 500};
 
 std::vector<std::unique_ptr<World>> worlds(const Plan& plan, const Amount& amount, const fs::path& mesh) {
@@ -85,6 +87,7 @@ class Check_tables {
            }))
         sum += part;
       fmt::print("{}, {}: {} rays, {} pieces\n", world.name, name_of(kind), sum.rays, sum.pieces);
+      std::fflush(stdout);
       checks_.row(world.name, name_of(kind), sum.rays, sum.pieces, sum.crossings, sum.blocked, sum.empty,
                   sum.broken, sum.judged, sum.judged_pieces, sum.wrong, sum.divided,
                   fmt::format("{:016x}", sum.digest));
@@ -150,6 +153,7 @@ void time(const Plan& plan, const World& world, Ray_kind kind, std::size_t count
               fmt::format("{:.3f}", seconds / of_trace));
   }
   fmt::print("{}, {} cells, {}: timed\n", world.name, world.snapshot().cell_count(), name_of(kind));
+  std::fflush(stdout);
 }
 
 }  // namespace
