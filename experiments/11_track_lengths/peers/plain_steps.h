@@ -28,6 +28,12 @@ struct Lanes_of<float> {
   using V = Floats;
 };
 
+/// Four lanes at once.
+template <class V, class Real>
+inline void load(const Real* lanes, V& vector) {
+  __builtin_memcpy(&vector, lanes, sizeof(V));
+}
+
 /// The first lane in which two vectors are equal; there is one.
 template <class V>
 inline unsigned first_equal(const V& a, const V& b) {
@@ -73,13 +79,13 @@ template <class Real>
 inline bool step(const Plain_mesh<Real>& mesh, Walker<Real>& walker, Plain_end& how) {
   using V = typename Lanes_of<Real>::V;
   const Plain_planes<Real>& planes = mesh.planes[walker.cell];
-  V normal[3], offset;
-  for (int k = 0; k < 3; ++k) __builtin_memcpy(&normal[k], planes.normal[k], sizeof(V));
-  __builtin_memcpy(&offset, planes.offset, sizeof(V));
-  const V slope =
-      normal[0] * walker.direction[0] + normal[1] * walker.direction[1] + normal[2] * walker.direction[2];
-  const V height =
-      offset - normal[0] * walker.from[0] - normal[1] * walker.from[1] - normal[2] * walker.from[2];
+  V x, y, z, offset;
+  load(planes.normal[0], x);
+  load(planes.normal[1], y);
+  load(planes.normal[2], z);
+  load(planes.offset, offset);
+  const V slope = x * walker.direction[0] + y * walker.direction[1] + z * walker.direction[2];
+  const V height = offset - x * walker.from[0] - y * walker.from[1] - z * walker.from[2];
   const V zero{}, infinity = zero + static_cast<Real>(__builtin_inf());
   const V met = slope > zero ? height / slope : infinity;
   V other = __builtin_shufflevector(met, met, 2, 3, 0, 1);
