@@ -16,7 +16,7 @@ targets=track_lengths
 options=(--threads "$threads")
 if $quick; then options+=(--quick); fi
 if ! $counts; then
-  if $quick; then options+=(--rounds 1); else options+=(--rounds 7); fi
+  if $quick; then options+=(--rounds 3); else options+=(--rounds 7); fi
 fi
 if ! $quick && [ -n "${CELLWALK_TEST_DATA:-}" ]; then options+=(--mesh "$CELLWALK_TEST_DATA/tet/hammer.msh"); fi
 "$build/experiments/11_track_lengths/track_lengths" --out "$out" --commit "$commit" "${options[@]}"
