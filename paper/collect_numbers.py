@@ -257,9 +257,11 @@ def provenance(report, runs):
         lines.append([TITLES[name], kind, r"\texttt{" + escaped(manifest["commit"][:12]) + "}", escaped(manifest["compiler"]),
                       escaped(manifest["processor"])])
     report.table("runs", "lllll", ["experiment", "length", "commit", "compiler", "processor"], lines)
-    kinds = {kind for kind, _ in runs.values()}
-    report.define("RunKinds", {frozenset(["quick"]): "quick runs of all experiments", frozenset(["full"]): "full runs of all experiments"}.get(
-        frozenset(kinds), "full runs of some experiments and quick runs of others"))
+    numbers = {kind: [TITLES[name][:2] for name, (of, _) in runs.items() if of == kind] for kind in ("full", "quick")}
+    fewer, more = sorted(numbers, key=lambda kind: len(numbers[kind]))
+    report.define("RunKinds", f"{more} runs of all experiments" if not numbers[fewer] else
+                  f"{fewer} runs of the experiments {' and '.join(numbers[fewer])}, and {more} runs of the others" if len(numbers[fewer]) > 1 else
+                  f"a {fewer} run of experiment {numbers[fewer][0]}, and {more} runs of the others")
 
 
 def main(arguments):
