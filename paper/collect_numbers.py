@@ -123,6 +123,8 @@ def exact_versus_float(report, folder):
     report.table("walks", "llrrrrrr", ["", "kernel", "walks", "wrong", r"\%", "missed walls", "false contacts", "no end"], lines)
     certain = [r for r in walks if r["kernel"] in EXACT_KERNELS]
     report.define("ExactWalks", count(sum(int(r["motions"]) for r in certain)))
+    meshes = {r["value"] for r in walks if r.get("variable") == "mesh"}
+    report.define("ExactMeshes", f", and {len(meshes)} are public meshes of tetrahedra" if meshes else "")
     report.define("ExactWalksWrong", count(sum(int(r["wrong"]) for r in certain)))
 
     def share(kernel):

@@ -43,7 +43,7 @@ def price_of_exactness(rows):
     if not regions:
         return without, f"{without[0].upper()}{without[1:]}."
     price = span([exact[n] / regions[n] for n in regions])
-    return (f"three segments with exact signs and contacts take {price} times the time of the same segments in doubles, with regions free of walls",
+    return (f"three segments with exact signs and contacts take {price} times the time of the same segments in doubles, both with regions free of walls",
             f"Walks in doubles with regions, which are not proved free and give no contact, take {span(regions.values())}\\,ns; three segments {price} times as "
             f"long: this is the price of exact signs and contacts. Compared with doubles without regions, {without.split(',')[0]}.")
 

@@ -40,10 +40,10 @@ def figure_8(folder, peers=True, paper=200, kept=8, rigid=True, on_map=True, reg
         for motion, parts in (("", 1), ("rigid_", 2))[:1 + rigid] for n in (1000, 10000) for m, ns in methods.items()])
 
 
-def exact_versus_float(folder):
+def exact_versus_float(folder, variable="mesh"):
     verdicts = {"missed_wall": 1, "false_contact": 2, "stuck": 3, "lost": 4}
     write(folder, "walks.csv", [
-        {"dimension": d, "kernel": k, "motions": 1000, "wrong": wrong, **(verdicts if wrong else dict.fromkeys(verdicts, 0))}
+        {"dimension": d, "kernel": k, "variable": variable, "value": "liver.msh", "motions": 1000, "wrong": wrong, **(verdicts if wrong else dict.fromkeys(verdicts, 0))}
         for d in (2, 3) for k, wrong in (("exact", 0), ("adaptive", 0), ("double", 10), ("double_1e-9", 20))])
     write(folder, "sweeps.csv", [
         {"dimension": d, "method": m, "sweeps": 500, "blocked": 100, "wrong": wrong, "missed": wrong, "false_contact": 0}
@@ -227,6 +227,7 @@ class CollectNumbers(unittest.TestCase):
                 ("figure_8", figure_8, {"on_map": False}, "FigEightMap", "from dart to dart"),
                 ("figure_8", figure_8, {"peers": False}, "FigEightMemory", "Bullet's hierarchy"),
                 ("figure_8", figure_8, {"regions": False}, "FigEightPrice", "with exact signs and contacts"),
+                ("exact_versus_float", exact_versus_float, {"variable": "scale"}, "ExactMeshes", "1 are public meshes"),
                 ("contact_search", contact_search, {"late": {"dichotomic_segment": 0}}, "SearchSegmentLate", "late in up to"),
                 ("real_scenes", real_scenes, {"rounded": False}, "AppRounded", "Bullet misses"),
                 ("real_scenes", real_scenes, {"scenes": 2}, "AppFiner", "times shorter"),
