@@ -262,7 +262,7 @@ def provenance(report, runs):
     numbers = {kind: [TITLES[name][:2] for name, (of, _) in runs.items() if of == kind] for kind in ("full", "quick")}
     fewer, more = sorted(numbers, key=lambda kind: len(numbers[kind]))
     report.define("RunKinds", f"{more} runs of all experiments" if not numbers[fewer] else
-                  f"{fewer} runs of the experiments {' and '.join(numbers[fewer])}, and {more} runs of the others" if len(numbers[fewer]) > 1 else
+                  f"{fewer} runs of experiments {' and '.join(numbers[fewer])}, and {more} runs of the others" if len(numbers[fewer]) > 1 else
                   f"a {fewer} run of experiment {numbers[fewer][0]}, and {more} runs of the others")
 
 
