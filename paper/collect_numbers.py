@@ -28,12 +28,6 @@ FIGURES = {"figure_8": {"figure_8": WIDE}, "exact_versus_float": {},
            "contact_search": {"time": HALF, "cost": HALF}, "degenerate_worlds": {},
            "real_scenes": {"ratios": WIDE}, "moving_walls": {"steps_one": HALF, "steps_all": HALF}, "scaling": {}, "ablation": {"orders": WIDE}}
 EXACT_KERNELS = ("exact", "exact_signs", "adaptive", "epick", "lazy", "rational")
-METHODS = [("cellwalk_three_segments", "Cellwalk, three segments"), ("cellwalk_triangle", "Cellwalk, complete"),
-           ("bullet_swept_box", "Bullet, a box an edge"), ("bullet_body_box", "Bullet, a box a body"),
-           ("bullet_kept_box", "Bullet, box kept a body"), ("gimpact_tau", "GIMPACT, triangles"),
-           ("embree_packet_robust", "Embree, robust packets"), ("fcl_boxes", "FCL, segments"), ("cgal_segment", "CGAL, segments"),
-           ("cgal_kept_box", "CGAL, box kept a body"), ("double_walk", "walk in doubles"), ("map_walk", "walk on the map, three segments"),
-           ("unit_cubes", "bound: unit cubes"), ("read_and_write", "bound: reading and writing")]
 
 
 def read(folder, name):
@@ -109,99 +103,6 @@ def draw(report, name, folder):
         subprocess.run(["gnuplot", "-"], input=terminal + script.read_text(encoding="utf-8"), text=True, check=True, cwd=report.out)
 
 
-def power_of_ten(n):
-    return f"$10^{{{len(str(n)) - 1}}}$" if str(n).strip("0") == "1" else count(n)
-
-
-def held_share(rows):
-    """Of the motions of some rows: the vertices that walls hold, of 1,000 moves."""
-    return span([1000 * int(r["held"]) / int(r["moves"]) for r in rows])
-
-
-def rigid_cubes(rows):
-    """What is said of the second motion of figure 8, if it was measured."""
-    times = {m: [float(r["ns_per_vertex_move"]) for r in rows if r["method"] == m and r["ns_per_vertex_move"]] for m, _ in METHODS}
-    if not times["cellwalk_triangle"]:
-        return ""
-    kept = f", Bullet with kept boxes {span(times['bullet_kept_box'])}\\,ns" if times["bullet_kept_box"] else ""
-    return (f" If the vertices aim at rigid cubes instead, which take another course where a wall holds a vertex ({count(rows[0]['steps'])} steps; "
-            f"walls hold {held_share(rows)} of 1,000 moves), the complete sweep takes {span(times['cellwalk_triangle'])}\\,ns, three segments "
-            f"{span(times['cellwalk_three_segments'])}\\,ns{kept}.")
-
-
-def walk_on_the_map(rows):
-    """What is said of the walk from dart to dart, if it was measured."""
-    times = {m: {r["cells"]: float(r["ns_per_vertex_move"]) for r in rows if r["method"] == m and r["ns_per_vertex_move"]}
-             for m in ("map_walk", "cellwalk_three_segments")}
-    own, tables = times["map_walk"], times["cellwalk_three_segments"]
-    if not own or not all(n in tables for n in own):
-        return ""
-    wrong = sum(int(r["missed"]) + int(r["false"]) for r in rows if r["method"] == "map_walk")
-    return (f" The original method as it is written, from dart to dart of the map with exact predicates and without regions (Section~\\ref{{thewalk}}), takes "
-            f"{span(own.values())}\\,ns, {span([own[n] / tables[n] for n in own])} times as long as three segments over tables, with {count(wrong)} wrong answers.")
-
-
-def memory(rows):
-    """The memory of the structures at the largest size, if it was measured."""
-    of = {r["method"]: r for r in rows if r.get("bytes_per")}
-    own, other = of.get("cellwalk_triangle"), of.get("bullet_swept_box")
-    if not own or not other:
-        return ""
-    return f" Cellwalk's tables take {float(own['bytes_per']):.0f} bytes a cell there, Bullet's hierarchy {float(other['bytes_per']):.0f} a wall triangle."
-
-
-def figure_8(report, folder):
-    of_all = read(folder, "figure_8.csv")
-    rows = [r for r in of_all if r["trace"].startswith("n_")]
-    sizes = sorted({int(r["cells"]) for r in rows})
-    found = {(r["method"], int(r["cells"])): r for r in rows}
-
-    def time(method, n):
-        return float(found[method, n]["ns_per_vertex_move"])
-    present = [(m, title) for m, title in METHODS if (m, sizes[-1]) in found and found[m, sizes[-1]]["ns_per_vertex_move"]]
-    lines = []
-    for method, title in present:
-        row = found[method, sizes[-1]]
-        lines.append([title, *(f"{time(method, n):.1f}" if time(method, n) < 99.95 else f"{time(method, n):,.0f}".replace(",", r"\,")
-                               for n in sizes), f'{count(row["missed"])} / {count(row["false"])}'])
-    report.table("figure_8", "l" + "r" * (len(sizes) + 1),
-                 ["method", *(f"$n={power_of_ten(n).strip('$')}$" for n in sizes), "missed / false"], lines)
-    ours = [r for r in rows if r["method"].startswith("cellwalk")]
-    report.define("FigEightHits", count(sum(int(r["hits"]) for r in ours)))
-    report.define("FigEightWrong", count(sum(int(r["missed"]) + int(r["false"]) for r in ours)))
-    report.define("FigEightSizes", f"{power_of_ten(sizes[0])} to {power_of_ten(sizes[-1])}")
-    report.define("FigEightGrowth", f'{time("cellwalk_triangle", sizes[-1]) / time("cellwalk_triangle", sizes[0]):.1f}')
-    report.define("FigEightTriangle", decimal(time("cellwalk_triangle", sizes[-1])))
-    report.define("FigEightSegments", decimal(time("cellwalk_three_segments", sizes[-1])))
-    report.define("FigEightExtra", decimal(time("cellwalk_triangle", sizes[-1]) / time("cellwalk_three_segments", sizes[-1]), 2))
-    report.define("FigEightSteps", count(rows[0]["steps"]))
-    report.define("FigEightHeld", held_share(rows))
-    report.define("FigEightRigid", rigid_cubes([r for r in of_all if r["trace"].startswith("rigid_n_")]))
-    report.define("FigEightMap", walk_on_the_map(rows))
-    report.define("FigEightMemory", memory([r for r in rows if int(r["cells"]) == sizes[-1]]))
-    report.define("FigEightMoves", count(found["cellwalk_triangle", sizes[-1]]["moves"]))
-    report.define("FigEightOverDouble", decimal(time("cellwalk_triangle", sizes[-1]) / time("double_walk", sizes[-1]), 2))
-    own = [found["cellwalk_triangle", n] for n in sizes]
-    report.define("FigEightClear", percent(min(int(r["clear_moves"]) / int(r["moves"]) for r in own)))
-    sentence = "Bullet was not installed where this was run, so the comparison of the original paper is missing."
-    if any(m == "bullet_swept_box" for m, _ in present):
-        paper = [time("bullet_swept_box", n) / time("cellwalk_three_segments", n) for n in sizes]
-        kept = [time("bullet_kept_box", n) / time("cellwalk_three_segments", n) for n in sizes]
-        sentence = (f"The box query for each edge that the original paper compares with takes {span(paper)} times as long as three segments "
-                    f"here. Bullet with the triangles of an enlarged box kept for each body takes {span(kept)} times as long.{conclusion(paper, kept)}")
-    report.define("FigEightBullet", sentence)
-
-
-def conclusion(paper, kept):
-    """Of the comparison of the original paper and that with kept boxes: only what their times show."""
-    clauses = []
-    if min(paper) > 1:
-        clauses.append("for bodies of this size the original conclusion holds against the comparison chosen there")
-    if max(kept) < min(paper):
-        clauses.append("a hierarchy that exploits the same coherence, with rounded answers, is a stronger competitor than one that is searched anew")
-    return " So " + ", but ".join(clauses) + "." if clauses else ""
-
-
 def exact_versus_float(report, folder):
     walks, sweeps = read(folder, "walks.csv"), read(folder, "sweeps.csv")
     lines = []
@@ -222,6 +123,8 @@ def exact_versus_float(report, folder):
     report.table("walks", "llrrrrrr", ["", "kernel", "walks", "wrong", r"\%", "missed walls", "false contacts", "no end"], lines)
     certain = [r for r in walks if r["kernel"] in EXACT_KERNELS]
     report.define("ExactWalks", count(sum(int(r["motions"]) for r in certain)))
+    meshes = {r["value"] for r in walks if r.get("variable") == "mesh"}
+    report.define("ExactMeshes", f", and {len(meshes)} are public meshes of tetrahedra" if meshes else "")
     report.define("ExactWalksWrong", count(sum(int(r["wrong"]) for r in certain)))
 
     def share(kernel):
@@ -356,9 +259,11 @@ def provenance(report, runs):
         lines.append([TITLES[name], kind, r"\texttt{" + escaped(manifest["commit"][:12]) + "}", escaped(manifest["compiler"]),
                       escaped(manifest["processor"])])
     report.table("runs", "lllll", ["experiment", "length", "commit", "compiler", "processor"], lines)
-    kinds = {kind for kind, _ in runs.values()}
-    report.define("RunKinds", {frozenset(["quick"]): "quick runs of all experiments", frozenset(["full"]): "full runs of all experiments"}.get(
-        frozenset(kinds), "full runs of some experiments and quick runs of others"))
+    numbers = {kind: [TITLES[name][:2] for name, (of, _) in runs.items() if of == kind] for kind in ("full", "quick")}
+    fewer, more = sorted(numbers, key=lambda kind: len(numbers[kind]))
+    report.define("RunKinds", f"{more} runs of all experiments" if not numbers[fewer] else
+                  f"{fewer} runs of experiments {' and '.join(numbers[fewer])}, and {more} runs of the others" if len(numbers[fewer]) > 1 else
+                  f"a {fewer} run of experiment {numbers[fewer][0]}, and {more} runs of the others")
 
 
 def main(arguments):
@@ -383,7 +288,7 @@ def main(arguments):
     report.write()
 
 
-SECTIONS = {"figure_8": figure_8, "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
+SECTIONS = {"figure_8": of_module("numbers_figure_8"), "exact_versus_float": exact_versus_float, "small_obstacles": small_obstacles,
             "contact_search": of_module("numbers_search"), "degenerate_worlds": degenerate_worlds,
             "real_scenes": of_module("numbers_application"), "moving_walls": of_module("numbers_moving_walls"),
             "scaling": of_module("numbers_scaling"), "ablation": of_module("numbers_ablation")}

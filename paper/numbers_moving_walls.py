@@ -66,4 +66,5 @@ def wall_times(own, found, methods):
     whole = [float(found[one["scene"], m]["step_us"]) / float(one["step_us"]) for m in WHOLE if (one["scene"], m) in found]
     return (f"In the largest vessel a step takes Cellwalk {few} times as long as the fastest hierarchy if one vertex moves ({fastest}), "
             f"and {many} times if all do ({fastest_of_many})." +
-            (f" With one vertex, hierarchies of the walls that are refitted as a whole or built take {span(whole)} times as long as Cellwalk." if whole else ""))
+            (f" With one vertex, the hierarchies of Table~\\ref{{wallstable}} that are refitted as a whole or built take {span(whole)} times as long as Cellwalk."
+             if whole else ""))

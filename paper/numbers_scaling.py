@@ -26,8 +26,8 @@ def collect(report, folder):
                           decimal(over_mean(r)), per_cent(r["moved"], r["vertices"]),
                           per_cent(r["parted"], r["edges"]), per_cent(part["ghosts"], part["cells"])])
     report.table("scaling", "lrrrrrr", ["scene", "ranks", "cells a rank", "fullest", "handed over", "edges parted", "ghosts"], lines)
-    per_rank = {(r["scene"], r["ranks"]): int(parts[r["scene"], r["ranks"]]["cells"]) // int(r["ranks"]) for r in rows}
-    least = min(WIDE, max(per_rank.values()))
+    per_rank = {(r["scene"], r["ranks"]): int(parts[r["scene"], r["ranks"]]["cells"]) / int(r["ranks"]) for r in rows}
+    least = min(WIDE, round(max(per_rank.values())))
     wide = [r for r in rows if per_rank[r["scene"], r["ranks"]] >= least]
     report.define("ScalingCellsLeast", count(least))
     report.define("ScalingHandedMost", decimal(max(100 * int(r["moved"]) / int(r["vertices"]) for r in wide), 2))
@@ -47,7 +47,7 @@ def ghosts(parts, per_rank):
     crowded = {key: n for key, n in per_rank.items() if int(parts[key]["ghosts"]) > int(parts[key]["cells"])}
     if crowded:
         key = max(crowded, key=crowded.get)
-        return f"ranks of {count(crowded[key])} cells ({key[0]}) hold more cells of others than their own"
+        return f"ranks of {count(round(crowded[key]))} cells ({key[0]}) hold more cells of others than their own"
     key = max(per_rank, key=lambda k: int(parts[k]["ghosts"]) / int(parts[k]["cells"]))
     share = per_cent(parts[key]["ghosts"], parts[key]["cells"])
-    return rf"ranks of {count(per_rank[key])} cells ({key[0]}) hold {share}\,\% as many cells of others as of their own"
+    return rf"ranks of {count(round(per_rank[key]))} cells ({key[0]}) hold {share}\,\% as many cells of others as of their own"

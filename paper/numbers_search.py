@@ -30,7 +30,7 @@ def collect(report, folder):
     report.table("searches", "llrrrrrr", ["world", "search", r"late, \%", "early, most", "gap, most", "normal", "signs",
                                           r"\textmu s"], lines)
     define_errors(report, errors, [found[world, "dichotomic_segment", "20"] for world in worlds])
-    define_costs(report, worlds, spent)
+    define_costs(report, worlds, spent, times)
 
 
 def define_errors(report, errors, segment):
@@ -52,11 +52,13 @@ def define_errors(report, errors, segment):
     report.define("SearchSegmentNone", percent(max(int(r["none_found"]) / int(r["contacts"]) for r in segment)))
 
 
-def define_costs(report, worlds, spent):
+def define_costs(report, worlds, spent, times):
     def ratios(one, other, bits=""):
         return [int(spent[w, one, bits]["signs"]) / int(spent[w, other, ""]["signs"]) for w in worlds]
     report.define("SearchRatio", span(ratios("dichotomic", "exact", "20")))
     report.define("SearchSegmentRatio", span(ratios("dichotomic_segment", "exact", "20"), 3))
     limit = ratios("exhaustive", "exhaustive_unlimited")
+    pairs = [(times.get((w, "exhaustive", "")), times.get((w, "exhaustive_unlimited", ""))) for w in worlds]
     report.define("SearchLimit", f"{span(limit, 3)} times as many signs are computed" +
-                  (", so the test costs more than it spares" if min(limit) > 1 else ""))
+                  (", so the test costs more signs than it spares" if min(limit) > 1 else "") +
+                  (f", in {span([limited / unlimited for limited, unlimited in pairs])} times the time" if all(map(all, pairs)) else ""))

@@ -18,19 +18,21 @@ from tables import read_rows, table, unique  # noqa: E402
 
 # Method: label in the plot, colour of its library, dash type, point type, line width. The others are in the tables only. Lines of one
 # library differ by dashes and marks, so that the plot can be read without colours as well.
-CELLWALK, BULLET, CGAL, EMBREE, GIMPACT, DOUBLE = "#0060a8", "#c8501e", "#8a3fa0", "#00805c", "#a87800", "#59636f"
+CELLWALK, BULLET, CGAL, EMBREE, GIMPACT, DOUBLE, MAP = "#0060a8", "#c8501e", "#8a3fa0", "#00805c", "#a87800", "#59636f", "#1a1a1a"
 PLOTTED = {
     "cellwalk_triangle": ("Cellwalk, complete sweep*", CELLWALK, 1, 7, 4),
     "cellwalk_three_segments": ("Cellwalk, three segments*", CELLWALK, 3, 6, 2.5),
     "bullet_kept_box": ("Bullet, a box kept", BULLET, 2, 10, 2),
     "cgal_kept_box": ("CGAL, a box kept*", CGAL, 2, 8, 2),
     "double_walk": ("plain walk in doubles", DOUBLE, 4, 3, 2),
+    "double_regions": ("walk in doubles, regions", DOUBLE, 1, 12, 2),
+    "map_walk": ("walk on the map*", MAP, 5, 4, 2),
     "embree_packet_robust": ("Embree, robust packets", EMBREE, 1, 9, 2),
     "gimpact_tau": ("GIMPACT (paper)", GIMPACT, 1, 13, 2),
     "bullet_swept_box": ("Bullet (paper)", BULLET, 1, 5, 2),
     "cgal_segment": ("CGAL, segments*", CGAL, 1, 11, 2),
 }
-LOWEST = ["cellwalk_triangle", "cellwalk_three_segments", "bullet_kept_box", "cgal_kept_box", "double_walk"]  # enlarged, on a linear scale
+LOWEST = ["cellwalk_triangle", "cellwalk_three_segments", "bullet_kept_box", "cgal_kept_box", "double_walk", "double_regions"]  # enlarged, on a linear scale
 RIGID = "rigid_"  # begins the names of traces of rigid bodies
 COUNTS = ["boxes", "queries", "triangle_tests", "walks", "crossings", "signs", "fallbacks", "certified_edges", "clear_moves"]
 

@@ -6,8 +6,9 @@
 #   experiments/02_exact_versus_float/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--threads N] [--no-build]
 #                                               [--long] [--resume]
 #
-# With CELLWALK_TEST_DATA, a folder of public meshes, the full run walks in two of them, too. What the options do is said in experiments/common/run_options.sh. --quick takes half a minute, the full run about 40. --long: 10^8 walks
-# and 10^7 sweeps, of the default kernel alone. --resume: goes on where a run with the same options was stopped.
+# With CELLWALK_TEST_DATA, a folder of public meshes, the full run walks in two of them, too. What the options do is said in
+# experiments/common/run_options.sh. --quick takes half a minute, the full run about ten on one core. --long: 10^8 walks and 10^7 sweeps,
+# of the default kernel alone. --resume: goes on where a run with the same options was stopped.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
