@@ -64,7 +64,7 @@ class Stubs(unittest.TestCase):
 
     def test_everything_is_documented(self):
         for name in ("Body", "Changes", "CutReport", "Edits", "Environment", "Locations", "Motions", "Particles", "RelaxReport", "Replacement",
-                     "Selection", "WallMoves"):
+                     "Selection", "Traces", "WallMoves"):
             bound = getattr(cellwalk, name)
             self.assertGreater(len(bound.__doc__), 20, name)
             for member, attribute in vars(bound).items():
