@@ -100,17 +100,16 @@ class Particle_motions {
   std::span<const Point<D>> targets_;
 };
 
-/// Traces the rows [begin, end) of motions.
-template <int D, class Motions_made>
-void trace_chunk(const Tracing<D>& tracing, const Motions_made& motions, std::size_t begin, std::size_t end,
+/// Traces the rows [begin, end) of motions by walk(particles, targets, traces, counts).
+template <int D, class Motions_made, class Walk>
+void trace_chunk(const Walk& walk, const Motions_made& motions, std::size_t begin, std::size_t end,
                  Traced_chunk<D>& chunk) {
   chunk.traces.clear();
   chunk.particles.resize(end - begin);
   chunk.status.resize(end - begin);
   for (std::size_t row = begin; row < end; ++row)
     chunk.particles[row - begin] = motions.start(row, chunk.status[row - begin], chunk.counts);
-  tracing.tracer.trace(chunk.particles, motions.targets().subspan(begin, end - begin), chunk.traces,
-                       chunk.counts);
+  walk(std::span(chunk.particles), motions.targets().subspan(begin, end - begin), chunk.traces, chunk.counts);
   for (std::size_t row = begin; row < end; ++row) {
     const Particle<D>& particle = chunk.particles[row - begin];
     if (particle.cell == Cell::none) continue;
@@ -168,13 +167,13 @@ void write(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Traced_
   }
 }
 
-template <int D, class Motions_made>
+template <int D, class Motions_made, class Walk>
 Trace_buffers trace_all(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Motions_made& motions,
-                        int threads) {
+                        const Walk& walk, int threads) {
   const std::size_t rows = motions.targets().size();
   std::vector<Traced_chunk<D>> chunks(chunk_count(rows));
   for_each_chunk(rows, threads, [&](std::size_t i, std::size_t begin, std::size_t end) {
-    trace_chunk(tracing, motions, begin, end, chunks[i]);
+    trace_chunk<D>(walk, motions, begin, end, chunks[i]);
     chunks[i].particles = {};
   });
   std::vector<std::size_t> pieces{0}, crossings{0};  // before each chunk
@@ -196,30 +195,38 @@ struct Row_weights {
   double largest = 1;              ///< of their absolute values
 };
 
-/// A bound of the lengths of pieces.
+/// A bound of the lengths of pieces, and so large that those in one cell can be added.
+/// \param most_bounces walls at which motions go on
 template <int D, class Motions_made>
-double longest_piece(const Motions_made& motions, double diameter) {
+double longest_piece(const Motions_made& motions, double diameter, int most_bounces) {
   double longest = 0;
-  for (std::size_t row = 0; row < motions.targets().size(); ++row) {
+  const std::size_t rows = motions.targets().size();
+  for (std::size_t row = 0; row < rows; ++row) {
     const Point<D>&from = motions.origin(row), &to = motions.targets()[row];
     double length = 0;
     for (std::size_t k = 0; k < D; ++k) length = std::hypot(length, to[k] - from[k]);
     if (length > longest) longest = length;  // rows that are not numbers have no pieces
   }
   constexpr double rounding = 0x1p-50;  // some ulp: of two roots, and of the length of a piece
-  return std::min(longest, diameter) * (1 + rounding);
+  constexpr int log2_of_most = 31;  // pieces of this length in a cell of a tally; it can add twice as many
+  if (most_bounces == 0) return std::min(longest, diameter) * (1 + rounding);
+  // Legs may be longer than the motion by a lift off a wall.
+  const double way = std::min(longest, diameter * (1.0 + most_bounces));
+  return std::max(diameter, std::ldexp(way * static_cast<double>(rows), -log2_of_most)) * (1 + rounding);
 }
 
 /// Adds the weighted lengths of motions to sums by cell.
+/// \param most_bounces walls at which a walk may go on
 /// \throw Error(input) for another number of sums than cells, with nothing moved
-template <int D, class Motions_made>
+template <int D, class Motions_made, class Walk>
 void tally_all(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Motions_made& motions,
-               const Row_weights& weights, int threads, std::span<double> sums) {
+               const Walk& walk, int most_bounces, const Row_weights& weights, int threads,
+               std::span<double> sums) {
   if (sums.size() != snapshot.cell_slots())
     throw Error(Error_code::input, fmt::format("out has {} values, and cells have numbers below {}: as many "
                                                "are needed",
                                                sums.size(), snapshot.cell_slots()));
-  const double largest = weights.largest * longest_piece<D>(motions, tracing.diameter);
+  const double largest = weights.largest * longest_piece<D>(motions, tracing.diameter, most_bounces);
   if (!std::isfinite(largest))
     throw Error(Error_code::input, "the weights are too large: their products with lengths overflow");
   struct Worker {
@@ -230,7 +237,7 @@ void tally_all(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Mot
       [&] { return Worker{Tally(sums.size(), largest > 0 ? largest : 1)}; });
   for_each_chunk(motions.targets().size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     auto& [tally, chunk] = workers.local();
-    trace_chunk(tracing, motions, begin, end, chunk);
+    trace_chunk<D>(walk, motions, begin, end, chunk);
     const Traces& traces = chunk.traces;
     for (std::size_t row = begin; row < end; ++row) {
       const double weight = weights.values ? weights.values[row] : 1;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <variant>
 
+#include "bouncing.h"
 #include "cell_tables.h"
 #include "module.h"
 #include "options.h"
@@ -34,7 +35,7 @@ Trace_arrays to_arrays(Trace_buffers&& buffers) {
 /// The weights of a tally: one for each row, or 1 for all.
 class Weights {
  public:
-  /// \throw TypeError for anything else than real numbers or None, ValueError for another number of them, or
+  /// \throw TypeError for anything else than real numbers or None, InputError for another number of them, or
   ///        one that is not finite
   Weights(const py::object& argument, std::size_t rows) {
     if (argument.is_none()) return;
@@ -45,13 +46,15 @@ class Weights {
     kept_ = Array::ensure(given);
     const auto size = static_cast<std::size_t>(kept_->size());
     if (size != rows)
-      throw py::value_error(
+      throw Error(
+          Error_code::input,
           fmt::format("weights has {} values, and there are {} motions: as many are needed", size, rows));
     rows_ = {kept_->data(), 0};
     for (std::size_t row = 0; row < rows; ++row) {
       const double weight = rows_.values[row];
       if (!std::isfinite(weight))
-        throw py::value_error(fmt::format("weights[{}] must be a finite number, and is {}", row, weight));
+        throw Error(Error_code::input,
+                    fmt::format("weights[{}] must be a finite number, and is {}", row, weight));
       rows_.largest = std::max(rows_.largest, std::abs(weight));
     }
   }
@@ -85,7 +88,15 @@ std::span<const Point<D>> span_of(const auto& points) {
   return {points.data(), points.size()};
 }
 
-/// Calls use(snapshot, tracing, motions) for the motions of points.
+/// Walks as a Tracer does.
+template <int D>
+auto walk_up_to_walls(const Tracing<D>& tracing) {
+  return [&tracer = tracing.tracer](auto particles, auto goals, Traces& traces, Walk_counts& counts) {
+    tracer.trace(particles, goals, traces, counts);
+  };
+}
+
+/// Calls use(world, rows, run), where run(work) calls work(snapshot, tracing, motions, walk, most_bounces).
 template <class Use>
 auto with_points(const Shared_world& self, const py::object& origins, const py::object& ends, int threads,
                  const Use& use) {
@@ -97,17 +108,18 @@ auto with_points(const Shared_world& self, const py::object& origins, const py::
         return use(world, from.size(), [&](const auto& work) {
           const typename World<D>::Reading reading(world);
           const Tracing<D>& tracing = reading.tracing();
-          return work(
-              reading.snapshot(), tracing,
-              Point_motions<D>(reading.locator(), reading.snapshot(), span_of<D>(from), span_of<D>(to)));
+          const Point_motions<D> motions(reading.locator(), reading.snapshot(), span_of<D>(from),
+                                         span_of<D>(to));
+          return work(reading.snapshot(), tracing, motions, walk_up_to_walls(tracing), 0);
         });
       },
       *self.world);
 }
 
-/// The same for those of particles.
+/// The same for the motions of particles.
 template <class Use>
-auto with_particles(Particles& self, const py::object& targets, int threads, const Use& use) {
+auto with_particles(Particles& self, const py::object& targets, const Bouncing& bouncing, int threads,
+                    const Use& use) {
   check_threads(threads);
   return std::visit(
       [&]<int D>(const World<D>& world) {
@@ -117,7 +129,17 @@ auto with_particles(Particles& self, const py::object& targets, int threads, con
           const typename World<D>::Reading reading(world, self.moving());
           self.check_epoch(reading.snapshot());
           const Tracing<D>& tracing = reading.tracing();
-          return work(reading.snapshot(), tracing, Particle_motions<D>(self.all<D>(), span_of<D>(to)));
+          const Particle_motions<D> motions(self.all<D>(), span_of<D>(to));
+          if (bouncing.is_none())
+            return work(reading.snapshot(), tracing, motions, walk_up_to_walls(tracing), 0);
+          const Boundary_tracer<D> boundary = bouncing.boundary<D>(reading);
+          const int most = bouncing.most_bounces();
+          return work(
+              reading.snapshot(), tracing, motions,
+              [&](auto particles, auto goals, Traces& traces, Walk_counts& counts) {
+                boundary.trace(particles, goals, most, traces, counts);
+              },
+              most);
         });
       },
       *self.world());
@@ -125,9 +147,9 @@ auto with_particles(Particles& self, const py::object& targets, int threads, con
 
 /// Traces the motions that are given to run().
 Trace_arrays trace(const auto& run, int threads) {
-  return to_arrays(run([&](const auto& snapshot, const auto& tracing, const auto& motions) {
-    return trace_all(snapshot, tracing, motions, threads);
-  }));
+  return to_arrays(
+      run([&](const auto& snapshot, const auto& tracing, const auto& motions, const auto& walk,
+              int /*most_bounces*/) { return trace_all(snapshot, tracing, motions, walk, threads); }));
 }
 
 template <int D>
@@ -137,8 +159,9 @@ py::array_t<double> tally(const World<D>& world, std::size_t rows, const py::obj
   const std::size_t cells = [&] { return typename World<D>::Looking(world).snapshot().cell_slots(); }();
   py::array_t<double> sums = sums_of(out, cells);
   const std::span<double> values(sums.mutable_data(), static_cast<std::size_t>(sums.size()));
-  run([&](const auto& snapshot, const auto& tracing, const auto& motions) {
-    tally_all(snapshot, tracing, motions, weight.rows(), threads, values);
+  run([&](const auto& snapshot, const auto& tracing, const auto& motions, const auto& walk,
+          int most_bounces) {
+    tally_all(snapshot, tracing, motions, walk, most_bounces, weight.rows(), threads, values);
   });
   return sums;
 }
@@ -156,16 +179,21 @@ py::array_t<double> tally_points(const Shared_world& self, const py::object& ori
   });
 }
 
-Trace_arrays trace_particles(Particles& self, const py::object& targets, int threads) {
-  return with_particles(self, targets, threads,
+Trace_arrays trace_particles(Particles& self, const py::object& targets, const py::object& reflect,
+                             const py::object& periodic, int most_bounces, int threads) {
+  const Bouncing bouncing(reflect, periodic, most_bounces);
+  return with_particles(self, targets, bouncing, threads,
                         [&](const auto&, std::size_t, const auto& run) { return trace(run, threads); });
 }
 
 py::array_t<double> tally_particles(Particles& self, const py::object& targets, const py::object& weights,
-                                    const py::object& out, int threads) {
-  return with_particles(self, targets, threads, [&](const auto& world, std::size_t rows, const auto& run) {
-    return tally(world, rows, weights, out, threads, run);
-  });
+                                    const py::object& out, const py::object& reflect,
+                                    const py::object& periodic, int most_bounces, int threads) {
+  const Bouncing bouncing(reflect, periodic, most_bounces);
+  return with_particles(self, targets, bouncing, threads,
+                        [&](const auto& world, std::size_t rows, const auto& run) {
+                          return tally(world, rows, weights, out, threads, run);
+                        });
 }
 
 py::array_t<std::int32_t> facet_rows(const Shared_world& self, const py::object& facets) {
@@ -179,8 +207,8 @@ py::array_t<std::int32_t> facet_rows(const Shared_world& self, const py::object&
           for (std::size_t i = 0; i < named.size(); ++i) {
             const Half_facet facet = named.find(reading.snapshot(), i);
             if (facet == Half_facet::none)
-              throw py::value_error(
-                  fmt::format("facets[{}] has points of a facet that other cells replaced", i));
+              throw Error(Error_code::input,
+                          fmt::format("facets[{}] has points of a facet that other cells replaced", i));
             rows.values[i] = tracing.row_of[to_index(facet)];
           }
         }
@@ -212,7 +240,7 @@ void bind_traces(py::module_& module) {
       module, "Traces",
       "Motions divided by the cells and facets that they cross, in compressed rows: the pieces of row i are "
       "cells[offsets[i]:offsets[i + 1]], in order, and likewise lengths; the facets that it crosses are "
-      "surfaces[surface_offsets[i]:surface_offsets[i + 1]].")
+      "surfaces[surface_offsets[i]:surface_offsets[i + 1]]. Rows that bounce hold all of their legs.")
       .def_readonly("offsets", &Trace_arrays::offsets, "int64 (N + 1,): where the pieces of each row begin.")
       .def_readonly("cells", &Trace_arrays::cells,
                     "int32 (M,): the cell of each piece; only cells in which the motion has a length.")
@@ -254,13 +282,25 @@ void bind_traces(py::module_& module) {
          "int32 (N,): the rows of facets() in which facets are, by which Traces name them.\n\n"
          "facets: rows of a selection or of contacts, or integers (N, 2): cells, and numbers of facets in "
          "them, seen from either side.");
-  define(particles, "trace", &trace_particles, py::arg("targets"), py::kw_only(), py::arg("threads") = 0,
-         "Moves each particle to its target like move(), and divides the motions by the cells that they "
-         "cross. A blocked particle stays in place; its row goes up to the wall.\n\n"
-         "threads: 0: all cores. The results do not depend on it.");
+  const std::string bounces =
+      "reflect: groups of walls that reflect, by names, or as rows of facets: there the particle goes up to "
+      "the wall, and the rest of its motion, mirrored, belongs to the same row.\n"
+      "periodic: pairs of groups: what meets a wall of one goes on from the other. A translation must take "
+      "one "
+      "to the other.\n"
+      "most_bounces: such walls a row; the next one blocks it.\n";
+  define(particles, "trace", &trace_particles, py::arg("targets"), py::kw_only(),
+         py::arg("reflect") = py::tuple(), py::arg("periodic") = py::tuple(), py::arg("most_bounces") = 1000,
+         py::arg("threads") = 0,
+         ("Moves each particle to its target like move(), and divides the motions by the cells that they "
+          "cross. A blocked particle stays in place; its row goes up to the wall.\n\n" +
+          bounces + "threads: 0: all cores. The results do not depend on it.")
+             .c_str());
   define(particles, "tally", &tally_particles, py::arg("targets"), py::kw_only(),
-         py::arg("weights") = py::none(), py::arg("out") = py::none(), py::arg("threads") = 0,
-         (std::string("Moves each particle to its target like move(). ") + tally_doc).c_str());
+         py::arg("weights") = py::none(), py::arg("out") = py::none(), py::arg("reflect") = py::tuple(),
+         py::arg("periodic") = py::tuple(), py::arg("most_bounces") = 1000, py::arg("threads") = 0,
+         (std::string("Moves each particle to its target like trace(), with the same options. ") + tally_doc)
+             .c_str());
 }
 
 }  // namespace cellwalk::python

@@ -229,7 +229,7 @@ class ByHand(unittest.TestCase):
         with environment.editing() as edits:
             self.assertTrue(edits.close(facets[facets["mean"][:, 0] == 1]).made.all())
         self.assertAlmostEqual(environment.trace(starts, ends).lengths.sum(), 0.75, delta=1e-15)
-        inserted = environment.cells()["mean"][0]
+        inserted = environment.cells()["mean"][0].tolist()
         with environment.editing() as edits:
             self.assertTrue(edits.insert_point(0, inserted))
         traces = environment.trace(starts, ends)

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The legs of many motions, round after round: in each, those go on that met a wall which lets them. In the
+// end the legs of each are put together.
+#include <cellwalk/body/boundary_tracer.h>
+#include <cellwalk/body/verified_stop.h>
+#include <cellwalk/internal/body/stop_candidates.h>
+#include <cellwalk/internal/kernel/check_finite.h>
+#include <cellwalk/kernel/error.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "slide.h"
+
+namespace cellwalk {
+namespace {
+
+/// Shifts of a point off a joined wall, in ulp.
+constexpr int largest_shift = 1024;
+
+/// The legs of a round.
+struct Round {
+  std::vector<std::uint32_t> rows;  ///< of the motions, ascending
+  Traces traces;
+};
+
+/// Appends a part of the values of a leg.
+template <class Value>
+void append(std::vector<Value>& to, const std::vector<Value>& from, std::uint64_t begin, std::uint64_t end) {
+  to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
+            from.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+/// Appends the rows of all motions. Those of a round are among those of the round before.
+void append_rows(const std::vector<Round>& rounds, std::size_t rows, Traces& traces) {
+  std::vector<std::size_t> next(rounds.size(), 0);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t k = 0; k < rounds.size(); ++k) {
+      const Traces& legs = rounds[k].traces;
+      const std::size_t i = next[k];
+      if (i == legs.size() || rounds[k].rows[i] != row) break;
+      ++next[k];
+      if (k == 0) {
+        traces.ends.emplace_back();
+      } else {
+        traces.crossings.push_back(traces.ends.back().wall);
+      }
+      append(traces.cells, legs.cells, legs.offsets[i], legs.offsets[i + 1]);
+      append(traces.lengths, legs.lengths, legs.offsets[i], legs.offsets[i + 1]);
+      append(traces.crossings, legs.crossings, legs.crossing_offsets[i], legs.crossing_offsets[i + 1]);
+      traces.ends.back() = legs.ends[i];
+    }
+    traces.offsets.push_back(traces.cells.size());
+    traces.crossing_offsets.push_back(traces.crossings.size());
+  }
+}
+
+}  // namespace
+
+template <int D>
+bool Boundary_tracer<D>::passes(const Passage& passage, Particle<D>& particle,
+                                const Vector<D>& normal) const {
+  const Point<D> there = particle.position + passage.translation;
+  const double unit = detail::ulp<D>(there == Point<D>{} ? particle.position : there);
+  // Off the wall that is reached, which faces the other way.
+  for (int shift = 0; shift <= largest_shift; shift = std::max(1, 2 * shift)) {
+    const Point<D> x = there - (shift * unit) * normal;
+    if (!is_finite(x)) return false;
+    const Location<D> at = locator_.locate(x);
+    for (std::size_t i = 0; i < at.cells.size(); ++i)
+      if (passage.cells.contains(to_index(at.cells[i]))) {
+        particle = at.sides[static_cast<std::size_t>(at.side_of_cell[i])];
+        return true;
+      }
+  }
+  return false;
+}
+
+template <int D>
+bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D>& target,
+                                 Walk_counts& counts) const {
+  const auto answer = answers_.find(to_index(wall));
+  if (answer == answers_.end()) return false;
+  const Walk_result<D> result = walk<Exact>(snapshot_, particle, target, counts);
+  const Contact<D> contact =
+      vertex_contact(snapshot_, particle.position, target, result.contact.value(), counts);
+  const Vector<D> rest = (1 - contact.time) * (target - particle.position);
+  stop_at_contact(snapshot_, particle, target, contact, counts);
+  if (answer->second != reflects) {
+    if (!passes(passages_[answer->second], particle, contact.normal)) return false;
+    target = particle.position + rest;
+    return is_finite(target);
+  }
+  const double into = std::min(0.0, dot(rest, contact.normal));
+  const Vector<D> mirrored = rest - (2 * into) * contact.normal;
+  // What leaves the wall by a few ulp may lead into it by rounding.
+  const Vector<D> lift = detail::lift<D>(particle.position, mirrored, contact.normal);
+  const bool grazes = dot(mirrored, contact.normal) < 2 * length(lift);
+  target = particle.position + (grazes ? mirrored + lift : mirrored);
+  return is_finite(target);
+}
+
+template <int D>
+void Boundary_tracer<D>::trace(std::span<Particle<D>> particles, std::span<const Point<D>> targets,
+                               int most_bounces, Traces& traces, Walk_counts& counts) const {
+  if (most_bounces < 0)
+    throw Error(Error_code::usage,
+                "the number of bounces cannot be negative, and is " + std::to_string(most_bounces));
+  std::vector<Round> rounds(1);
+  std::vector<Particle<D>> moving(particles.begin(), particles.end());
+  std::vector<Point<D>> goals(targets.begin(), targets.end());
+  std::vector<std::pair<std::uint32_t, Particle<D>>> arrived;
+  for (std::uint32_t row = 0; row < particles.size(); ++row) rounds[0].rows.push_back(row);
+  while (!rounds.back().rows.empty()) {
+    Round& round = rounds.back();
+    tracer_.trace(moving, goals, round.traces, counts);
+    Round next;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const Trace_end& end = round.traces.ends[i];
+      if (end.status == Walk_status::arrived) arrived.emplace_back(round.rows[i], moving[i]);
+      if (end.status != Walk_status::contact || rounds.size() > static_cast<std::size_t>(most_bounces) ||
+          !goes_on(end.wall, moving[i], goals[i], counts))
+        continue;
+      moving[next.rows.size()] = moving[i];
+      goals[next.rows.size()] = goals[i];
+      next.rows.push_back(round.rows[i]);
+    }
+    moving.resize(next.rows.size());
+    goals.resize(next.rows.size());
+    rounds.push_back(std::move(next));
+  }
+  append_rows(rounds, particles.size(), traces);
+  for (const auto& [row, particle] : arrived) particles[row] = particle;
+}
+
+template class Boundary_tracer<2>;
+template class Boundary_tracer<3>;
+
+}  // namespace cellwalk
