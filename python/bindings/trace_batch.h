@@ -30,6 +30,7 @@ template <int D>
 struct Traced_chunk {
   std::vector<Particle<D>> particles;
   std::vector<Motion_status> status;
+  std::vector<Vector<D>> headings;
   Traces traces;
   Walk_counts counts;
 };
@@ -100,16 +101,20 @@ class Particle_motions {
   std::span<const Point<D>> targets_;
 };
 
-/// Traces the rows [begin, end) of motions by walk(particles, targets, traces, counts).
+/// Traces the rows [begin, end) of motions by walk(particles, targets, traces, counts, headings).
 template <int D, class Motions_made, class Walk>
 void trace_chunk(const Walk& walk, const Motions_made& motions, std::size_t begin, std::size_t end,
                  Traced_chunk<D>& chunk) {
   chunk.traces.clear();
   chunk.particles.resize(end - begin);
   chunk.status.resize(end - begin);
-  for (std::size_t row = begin; row < end; ++row)
+  chunk.headings.resize(end - begin);
+  for (std::size_t row = begin; row < end; ++row) {
     chunk.particles[row - begin] = motions.start(row, chunk.status[row - begin], chunk.counts);
-  walk(std::span(chunk.particles), motions.targets().subspan(begin, end - begin), chunk.traces, chunk.counts);
+    chunk.headings[row - begin] = motions.targets()[row] - motions.origin(row);
+  }
+  walk(std::span(chunk.particles), motions.targets().subspan(begin, end - begin), chunk.traces, chunk.counts,
+       std::span(chunk.headings));
   for (std::size_t row = begin; row < end; ++row) {
     const Particle<D>& particle = chunk.particles[row - begin];
     if (particle.cell == Cell::none) continue;
@@ -120,7 +125,7 @@ void trace_chunk(const Walk& walk, const Motions_made& motions, std::size_t begi
 
 /// The content of Trace_arrays. Needs no interpreter.
 struct Trace_buffers {
-  Trace_buffers(std::size_t rows, std::size_t pieces, std::size_t crossings)
+  Trace_buffers(std::size_t rows, std::size_t columns, std::size_t pieces, std::size_t crossings)
       : offsets(rows + 1),
         surface_offsets(rows + 1),
         cells(pieces),
@@ -128,17 +133,20 @@ struct Trace_buffers {
         cell(rows),
         wall(rows),
         lengths(pieces),
+        headings(rows * columns),
         forward(crossings),
-        status(rows) {
+        status(rows),
+        dimension(columns) {
     offsets.values[0] = 0;
     surface_offsets.values[0] = 0;
   }
 
   Buffer<std::int64_t> offsets, surface_offsets;
   Buffer<std::int32_t> cells, surfaces, cell, wall;
-  Buffer<double> lengths;
+  Buffer<double> lengths, headings;
   Buffer<bool> forward;
   Buffer<std::uint8_t> status;
+  std::size_t dimension;
 };
 
 /// Writes a chunk that begins at a row, a piece and a crossing.
@@ -158,6 +166,8 @@ void write(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Traced_
   for (std::size_t i = 0; i < traces.cells.size(); ++i)
     out.cells.values[piece + i] = static_cast<std::int32_t>(snapshot.index(traces.cells[i]));
   std::copy(traces.lengths.begin(), traces.lengths.end(), out.lengths.values.get() + piece);
+  const double* const heading = chunk.headings.data()->data();
+  std::copy(heading, heading + D * chunk.headings.size(), out.headings.values.get() + D * row);
   for (std::size_t i = 0; i < traces.crossings.size(); ++i) {
     const Half_facet facet = traces.crossings[i];
     const Cell beyond = snapshot.neighbour(facet);
@@ -181,7 +191,7 @@ Trace_buffers trace_all(const Snapshot<D>& snapshot, const Tracing<D>& tracing, 
     pieces.push_back(pieces.back() + chunk.traces.cells.size());
     crossings.push_back(crossings.back() + chunk.traces.crossings.size());
   }
-  Trace_buffers buffers(rows, pieces.back(), crossings.back());
+  Trace_buffers buffers(rows, D, pieces.back(), crossings.back());
   for_each_chunk(rows, threads, [&](std::size_t i, std::size_t begin, std::size_t /*end*/) {
     write(snapshot, tracing, chunks[i], begin, pieces[i], crossings[i], buffers);
     chunks[i] = {};  // memory is used once, not twice

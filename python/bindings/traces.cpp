@@ -25,11 +25,13 @@ namespace cellwalk::python {
 namespace {
 
 Trace_arrays to_arrays(Trace_buffers&& buffers) {
+  const std::size_t rows = buffers.status.size;
+  py::array headings = to_array(std::move(buffers.headings));
   return {to_array(std::move(buffers.offsets)), to_array(std::move(buffers.surface_offsets)),
           to_array(std::move(buffers.cells)),   to_array(std::move(buffers.surfaces)),
           to_array(std::move(buffers.cell)),    to_array(std::move(buffers.wall)),
-          to_array(std::move(buffers.lengths)), to_array(std::move(buffers.forward)),
-          to_array(std::move(buffers.status))};
+          to_array(std::move(buffers.lengths)), headings.reshape({rows, buffers.dimension}),
+          to_array(std::move(buffers.forward)), to_array(std::move(buffers.status))};
 }
 
 /// The weights of a tally: one for each row, or 1 for all.
@@ -91,7 +93,8 @@ std::span<const Point<D>> span_of(const auto& points) {
 /// Walks as a Tracer does.
 template <int D>
 auto walk_up_to_walls(const Tracing<D>& tracing) {
-  return [&tracer = tracing.tracer](auto particles, auto goals, Traces& traces, Walk_counts& counts) {
+  return [&tracer = tracing.tracer](auto particles, auto goals, Traces& traces, Walk_counts& counts,
+                                    std::span<Vector<D>> /*headings*/) {
     tracer.trace(particles, goals, traces, counts);
   };
 }
@@ -136,8 +139,9 @@ auto with_particles(Particles& self, const py::object& targets, const Bouncing& 
           const int most = bouncing.most_bounces();
           return work(
               reading.snapshot(), tracing, motions,
-              [&](auto particles, auto goals, Traces& traces, Walk_counts& counts) {
-                boundary.trace(particles, goals, most, traces, counts);
+              [&](auto particles, auto goals, Traces& traces, Walk_counts& counts,
+                  std::span<Vector<D>> headings) {
+                boundary.trace(particles, goals, most, traces, counts, headings);
               },
               most);
         });
@@ -259,6 +263,9 @@ void bind_traces(py::module_& module) {
       .def_readonly("wall", &Trace_arrays::wall,
                     "int32 (N,): the wall that blocks the motion, as a row of Environment.facets(); -1 for "
                     "none.")
+      .def_readonly("heading", &Trace_arrays::heading,
+                    "float64 (N, dimension): each motion from its start to its target, mirrored in the walls "
+                    "that reflected it: how it is to go on.")
       .def_readonly("status", &Trace_arrays::status,
                     "uint8 (N,): codes of Status. Motions that are OUTSIDE or INVALID have no pieces.")
       .def_readonly("cell", &Trace_arrays::cell,

@@ -31,6 +31,7 @@ struct Trace_arrays {
   py::array_t<std::int64_t> offsets, surface_offsets;
   py::array_t<std::int32_t> cells, surfaces, cell, wall;
   py::array_t<double> lengths;
+  py::array heading;
   py::array_t<bool> forward;
   py::array_t<std::uint8_t> status;
 };

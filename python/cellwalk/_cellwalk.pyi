@@ -14,6 +14,8 @@ _Indices = numpy.typing.NDArray[numpy.integer[Any]]
 # Rows of Environment.facets() or cells(), or numbers.
 _Facets = Union[numpy.typing.NDArray[Any], Sequence[Sequence[int]], Sequence[int], numpy.void]
 _Cells = Union[numpy.typing.NDArray[Any], Sequence[int], int, numpy.void]
+_Walls = Union[str, _Facets]
+_Weights = Union[numpy.typing.ArrayLike, None]
 _Touch = Literal["pass", "stop"]
 _Radius = Union[float, numpy.typing.NDArray[numpy.float64]]
 _Sweep = Literal["three_segments", "triangle", "faces"]
@@ -66,6 +68,8 @@ class Traces:
     def surfaces(self) -> numpy.typing.NDArray[numpy.int32]: ...
     @property
     def forward(self) -> numpy.typing.NDArray[numpy.bool_]: ...
+    @property
+    def heading(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @property
     def wall(self) -> numpy.typing.NDArray[numpy.int32]: ...
     @property
@@ -191,18 +195,8 @@ class Edits:
     def merge_vertices(self, point: int, onto: int) -> Replacement: ...
     def split_vertex(self, vertex: int, cells: _Cells, target: Sequence[float]) -> Replacement: ...
     def relax(
-        self,
-        points: Union[_Indices, Sequence[int]],
-        *,
-        good_enough: float = 0.3,
-        most_rounds: int = 4,
-        most_operations: int = 1000,
-        smooth: bool = True,
-        flip: bool = True,
-        split: bool = True,
-        collapse: bool = True,
-        longest: float = 2.0,
-        shortest: float = 0.4,
+        self, points: Union[_Indices, Sequence[int]], *, good_enough: float = 0.3, most_rounds: int = 4, most_operations: int = 1000,
+        smooth: bool = True, flip: bool = True, split: bool = True, collapse: bool = True, longest: float = 2.0, shortest: float = 0.4
     ) -> RelaxReport: ...
     def cut(
         self,
@@ -291,14 +285,8 @@ class Environment:
     ) -> Motions: ...
     def trace(self, origins: _Points, ends: _Points, *, threads: int = 0) -> Traces: ...
     def tally(
-        self,
-        origins: _Points,
-        ends: _Points,
-        *,
-        weights: Union[numpy.typing.ArrayLike, None] = None,
-        out: Union[numpy.typing.NDArray[numpy.float64], None] = None,
-        threads: int = 0,
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
+        self, origins: _Points, ends: _Points, *, weights: _Weights = None, out: Union[_Points, None] = None, threads: int = 0
+    ) -> _Points: ...
     def facet_rows(self, facets: _Facets) -> numpy.typing.NDArray[numpy.int32]: ...
     def reshape(
         self,
@@ -338,15 +326,14 @@ class Particles:
     def move(
         self, targets: _Points, *, at_contact: Literal["stay", "stop"] = "stay", threads: int = 0
     ) -> Motions: ...
-    def trace(self, targets: _Points, *, threads: int = 0) -> Traces: ...
+    def trace(
+        self, targets: _Points, *, reflect: Sequence[_Walls] = (), periodic: Sequence[Sequence[_Walls]] = (),
+        most_bounces: int = 1000, threads: int = 0
+    ) -> Traces: ...
     def tally(
-        self,
-        targets: _Points,
-        *,
-        weights: Union[numpy.typing.ArrayLike, None] = None,
-        out: Union[numpy.typing.NDArray[numpy.float64], None] = None,
-        threads: int = 0,
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
+        self, targets: _Points, *, weights: _Weights = None, out: Union[_Points, None] = None, reflect: Sequence[_Walls] = (),
+        periodic: Sequence[Sequence[_Walls]] = (), most_bounces: int = 1000, threads: int = 0
+    ) -> _Points: ...
     def locate_again(self, *, threads: int = 0) -> None: ...
     def __len__(self) -> int: ...
 

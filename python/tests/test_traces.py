@@ -29,7 +29,7 @@ def sums(traces):
 
 def same(one, other):
     return all(getattr(one, name).tobytes() == getattr(other, name).tobytes()
-               for name in ("offsets", "cells", "lengths", "surface_offsets", "surfaces", "forward", "wall", "status", "cell"))
+               for name in ("offsets", "cells", "lengths", "surface_offsets", "surfaces", "forward", "heading", "wall", "status", "cell"))
 
 
 class InTetrahedra(unittest.TestCase):
@@ -44,8 +44,8 @@ class InTetrahedra(unittest.TestCase):
         self.assertEqual(len(traces), n)
         for name, dtype, size in (("offsets", "int64", n + 1), ("cells", "int32", traces.offsets[-1]), ("lengths", "float64", traces.offsets[-1]),
                                   ("surface_offsets", "int64", n + 1), ("surfaces", "int32", traces.surface_offsets[-1]),
-                                  ("forward", "bool", traces.surface_offsets[-1]), ("wall", "int32", n), ("status", "uint8", n), ("cell", "int32", n)):
-            self.assertEqual((getattr(traces, name).dtype, getattr(traces, name).shape), (numpy.dtype(dtype), (size,)), name)
+                                  ("forward", "bool", traces.surface_offsets[-1]), ("heading", "float64", (n, 3)), ("wall", "int32", n), ("status", "uint8", n), ("cell", "int32", n)):
+            self.assertEqual((getattr(traces, name).dtype, getattr(traces, name).shape), (numpy.dtype(dtype), numpy.empty(size).shape), name)
         self.assertEqual(repr(traces), f"<cellwalk.Traces of {n} rows, {traces.offsets[-1]} pieces, {traces.surface_offsets[-1]} crossings>")
         self.assertGreater(traces.offsets[-1], 5 * n)
         empty = self.environment.trace(numpy.empty((0, 3)), numpy.empty((0, 3)))

@@ -45,13 +45,15 @@ class Boundary_tracer {
   /// \param particles moved if they arrive; others stay where they are
   /// \param targets as many; where they would arrive without walls
   /// \param most_bounces walls at which a row goes on; the next one blocks it
+  /// \param headings none, or a vector for each motion, such as its velocity: those of particles that arrive
+  ///        are mirrored in the walls that reflected them
   /// \throw Error as Tracer::trace(), and Error(usage) for a negative number of bounces, with nothing changed
   /// Degenerate cases: at an edge or vertex the wall that blocks the motion (Contact::facet) reflects it; if
   /// that leads into another wall there, the next leg has no length. A joined wall blocks a motion if none of
   /// the points near the other wall is in free space.
   /// Cost: that of the walks, and some microseconds a bounce.
   void trace(std::span<Particle<D>> particles, std::span<const Point<D>> targets, int most_bounces,
-             Traces& traces, Walk_counts& counts) const;
+             Traces& traces, Walk_counts& counts, std::span<Vector<D>> headings = {}) const;
 
  private:
   /// One direction of a joined pair.
@@ -62,7 +64,8 @@ class Boundary_tracer {
   static constexpr std::size_t reflects = static_cast<std::size_t>(-1);
 
   void answer(Half_facet wall, std::size_t how);
-  bool goes_on(Half_facet wall, Particle<D>& particle, Point<D>& target, Walk_counts& counts) const;
+  bool goes_on(Half_facet wall, Particle<D>& particle, Point<D>& target, Vector<D>& heading,
+               Walk_counts& counts) const;
   bool passes(const Passage& passage, Particle<D>& particle, const Vector<D>& normal) const;
 
   const Snapshot<D>& snapshot_;

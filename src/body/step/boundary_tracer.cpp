@@ -19,6 +19,12 @@ namespace {
 /// Shifts of a point off a joined wall, in ulp.
 constexpr int largest_shift = 1024;
 
+/// A vector that leads into a wall, mirrored in its plane.
+template <int D>
+Vector<D> mirror(const Vector<D>& v, const Vector<D>& normal) {
+  return v - (2 * std::min(0.0, dot(v, normal))) * normal;
+}
+
 /// The legs of a round.
 struct Round {
   std::vector<std::uint32_t> rows;  ///< of the motions, ascending
@@ -78,7 +84,7 @@ bool Boundary_tracer<D>::passes(const Passage& passage, Particle<D>& particle,
 }
 
 template <int D>
-bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D>& target,
+bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D>& target, Vector<D>& heading,
                                  Walk_counts& counts) const {
   const auto answer = answers_.find(to_index(wall));
   if (answer == answers_.end()) return false;
@@ -92,8 +98,8 @@ bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D
     target = particle.position + rest;
     return is_finite(target);
   }
-  const double into = std::min(0.0, dot(rest, contact.normal));
-  const Vector<D> mirrored = rest - (2 * into) * contact.normal;
+  heading = mirror<D>(heading, contact.normal);
+  const Vector<D> mirrored = mirror<D>(rest, contact.normal);
   // What leaves the wall by a few ulp may lead into it by rounding.
   const Vector<D> lift = detail::lift<D>(particle.position, mirrored, contact.normal);
   const bool grazes = dot(mirrored, contact.normal) < 2 * length(lift);
@@ -103,13 +109,16 @@ bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D
 
 template <int D>
 void Boundary_tracer<D>::trace(std::span<Particle<D>> particles, std::span<const Point<D>> targets,
-                               int most_bounces, Traces& traces, Walk_counts& counts) const {
+                               int most_bounces, Traces& traces, Walk_counts& counts,
+                               std::span<Vector<D>> headings) const {
   if (most_bounces < 0)
     throw Error(Error_code::usage,
                 "the number of bounces cannot be negative, and is " + std::to_string(most_bounces));
   std::vector<Round> rounds(1);
   std::vector<Particle<D>> moving(particles.begin(), particles.end());
   std::vector<Point<D>> goals(targets.begin(), targets.end());
+  std::vector<Vector<D>> mirrored(particles.size());
+  if (!headings.empty()) mirrored.assign(headings.begin(), headings.end());
   std::vector<std::pair<std::uint32_t, Particle<D>>> arrived;
   for (std::uint32_t row = 0; row < particles.size(); ++row) rounds[0].rows.push_back(row);
   while (!rounds.back().rows.empty()) {
@@ -120,7 +129,7 @@ void Boundary_tracer<D>::trace(std::span<Particle<D>> particles, std::span<const
       const Trace_end& end = round.traces.ends[i];
       if (end.status == Walk_status::arrived) arrived.emplace_back(round.rows[i], moving[i]);
       if (end.status != Walk_status::contact || rounds.size() > static_cast<std::size_t>(most_bounces) ||
-          !goes_on(end.wall, moving[i], goals[i], counts))
+          !goes_on(end.wall, moving[i], goals[i], mirrored[round.rows[i]], counts))
         continue;
       moving[next.rows.size()] = moving[i];
       goals[next.rows.size()] = goals[i];
@@ -131,7 +140,10 @@ void Boundary_tracer<D>::trace(std::span<Particle<D>> particles, std::span<const
     rounds.push_back(std::move(next));
   }
   append_rows(rounds, particles.size(), traces);
-  for (const auto& [row, particle] : arrived) particles[row] = particle;
+  for (const auto& [row, particle] : arrived) {
+    particles[row] = particle;
+    if (!headings.empty()) headings[row] = mirrored[row];
+  }
 }
 
 template class Boundary_tracer<2>;

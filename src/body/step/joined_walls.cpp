@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The walls at which a Boundary_tracer goes on, and the translation that takes walls to others. The extents of
-// both sets give it; walks at the means of facets show that walls are there.
+// The walls at which a Boundary_tracer goes on, and the translation that takes walls to others. The extents
+// of both sets give it; walks at the means of facets show that walls are there.
 #include <cellwalk/body/boundary_tracer.h>
 #include <cellwalk/environment/selection.h>
 #include <cellwalk/internal/walk/star.h>
