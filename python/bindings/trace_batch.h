@@ -15,7 +15,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "batch.h"
@@ -149,54 +151,79 @@ struct Trace_buffers {
   std::size_t dimension;
 };
 
-/// Writes a chunk that begins at a row, a piece and a crossing.
+/// The rows of a chunk, as Python names cells and facets.
 template <int D>
-void write(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Traced_chunk<D>& chunk,
-           std::size_t row, std::size_t piece, std::size_t crossing, const Trace_buffers& out) {
+Trace_buffers to_buffers(const Snapshot<D>& snapshot, const Tracing<D>& tracing,
+                         const Traced_chunk<D>& chunk) {
   const Traces& traces = chunk.traces;
-  for (std::size_t i = 0; i < traces.size(); ++i) {
-    out.offsets.values[row + i + 1] = static_cast<std::int64_t>(piece + traces.offsets[i + 1]);
-    out.surface_offsets.values[row + i + 1] =
-        static_cast<std::int64_t>(crossing + traces.crossing_offsets[i + 1]);
-    const Trace_end& end = traces.ends[i];
-    out.status.values[row + i] = static_cast<std::uint8_t>(chunk.status[i]);
-    out.cell.values[row + i] = number_of(snapshot, end.cell);
-    out.wall.values[row + i] = end.wall == Half_facet::none ? -1 : tracing.row_of[to_index(end.wall)];
+  Trace_buffers out(traces.size(), D, traces.cells.size(), traces.crossings.size());
+  for (std::size_t row = 0; row < traces.size(); ++row) {
+    out.offsets.values[row + 1] = static_cast<std::int64_t>(traces.offsets[row + 1]);
+    out.surface_offsets.values[row + 1] = static_cast<std::int64_t>(traces.crossing_offsets[row + 1]);
+    const Trace_end& end = traces.ends[row];
+    out.status.values[row] = static_cast<std::uint8_t>(chunk.status[row]);
+    out.cell.values[row] = number_of(snapshot, end.cell);
+    out.wall.values[row] = end.wall == Half_facet::none ? -1 : tracing.row_of[to_index(end.wall)];
+    std::copy_n(chunk.headings[row].begin(), D, out.headings.values.get() + D * row);
   }
   for (std::size_t i = 0; i < traces.cells.size(); ++i)
-    out.cells.values[piece + i] = static_cast<std::int32_t>(snapshot.index(traces.cells[i]));
-  std::copy(traces.lengths.begin(), traces.lengths.end(), out.lengths.values.get() + piece);
-  const double* const heading = chunk.headings.data()->data();
-  std::copy(heading, heading + D * chunk.headings.size(), out.headings.values.get() + D * row);
+    out.cells.values[i] = static_cast<std::int32_t>(snapshot.index(traces.cells[i]));
+  std::copy(traces.lengths.begin(), traces.lengths.end(), out.lengths.values.get());
   for (std::size_t i = 0; i < traces.crossings.size(); ++i) {
     const Half_facet facet = traces.crossings[i];
     const Cell beyond = snapshot.neighbour(facet);
-    out.surfaces.values[crossing + i] = tracing.row_of[to_index(facet)];
-    out.forward.values[crossing + i] =
+    out.surfaces.values[i] = tracing.row_of[to_index(facet)];
+    out.forward.values[i] =
         beyond == Cell::none || snapshot.index(beyond) > snapshot.index(snapshot.cell_of(facet));
   }
+  return out;
+}
+
+/// The parts of chunks, one after the other. They are freed on the way, so that memory is used once.
+inline Trace_buffers joined(std::vector<std::unique_ptr<Trace_buffers>> parts, std::size_t rows,
+                            std::size_t columns, int threads) {
+  std::vector<std::size_t> pieces{0}, crossings{0};  // before each part
+  for (const auto& part : parts) {
+    pieces.push_back(pieces.back() + part->cells.size);
+    crossings.push_back(crossings.back() + part->surfaces.size);
+  }
+  Trace_buffers all(rows, columns, pieces.back(), crossings.back());
+  for_each_chunk(rows, threads, [&](std::size_t i, std::size_t row, std::size_t /*end*/) {
+    const auto put = [](const auto& part, const auto& whole, std::size_t at) {
+      std::copy_n(part.values.get(), part.size, whole.values.get() + at);
+    };
+    const Trace_buffers& part = *parts[i];
+    for (std::size_t k = 1; k < part.offsets.size; ++k) {
+      all.offsets.values[row + k] = part.offsets.values[k] + static_cast<std::int64_t>(pieces[i]);
+      all.surface_offsets.values[row + k] =
+          part.surface_offsets.values[k] + static_cast<std::int64_t>(crossings[i]);
+    }
+    put(part.cells, all.cells, pieces[i]);
+    put(part.lengths, all.lengths, pieces[i]);
+    put(part.surfaces, all.surfaces, crossings[i]);
+    put(part.forward, all.forward, crossings[i]);
+    put(part.headings, all.headings, columns * row);
+    put(part.cell, all.cell, row);
+    put(part.wall, all.wall, row);
+    put(part.status, all.status, row);
+    parts[i].reset();
+  });
+  return all;
 }
 
 template <int D, class Motions_made, class Walk>
 Trace_buffers trace_all(const Snapshot<D>& snapshot, const Tracing<D>& tracing, const Motions_made& motions,
                         const Walk& walk, int threads) {
   const std::size_t rows = motions.targets().size();
-  std::vector<Traced_chunk<D>> chunks(chunk_count(rows));
+  std::vector<std::unique_ptr<Trace_buffers>> parts(chunk_count(rows));
+  tbb::enumerable_thread_specific<Traced_chunk<D>> chunks;
   for_each_chunk(rows, threads, [&](std::size_t i, std::size_t begin, std::size_t end) {
-    trace_chunk<D>(walk, motions, begin, end, chunks[i]);
-    chunks[i].particles = {};
+    Traced_chunk<D>& chunk = chunks.local();
+    trace_chunk<D>(walk, motions, begin, end, chunk);
+    parts[i] = std::make_unique<Trace_buffers>(to_buffers(snapshot, tracing, chunk));
   });
-  std::vector<std::size_t> pieces{0}, crossings{0};  // before each chunk
-  for (const Traced_chunk<D>& chunk : chunks) {
-    pieces.push_back(pieces.back() + chunk.traces.cells.size());
-    crossings.push_back(crossings.back() + chunk.traces.crossings.size());
-  }
-  Trace_buffers buffers(rows, D, pieces.back(), crossings.back());
-  for_each_chunk(rows, threads, [&](std::size_t i, std::size_t begin, std::size_t /*end*/) {
-    write(snapshot, tracing, chunks[i], begin, pieces[i], crossings[i], buffers);
-    chunks[i] = {};  // memory is used once, not twice
-  });
-  return buffers;
+  if (parts.size() == 1) return std::move(*parts[0]);
+  return joined(std::move(parts), rows, D, threads);
 }
 
 /// Of the motions of a tally.

@@ -22,7 +22,7 @@ class Bouncing(unittest.TestCase):
     def setUp(self):
         self.environment = cellwalk.Environment.generate("tets", cells=SIZE)
         rng = numpy.random.default_rng(8)
-        self.starts, self.ends = rng.uniform(0, SIZE, (100_000, 3)), rng.uniform(-3 * SIZE, 4 * SIZE, (100_000, 3))
+        self.starts, self.ends = rng.uniform(0, SIZE, (10_000, 3)), rng.uniform(-3 * SIZE, 4 * SIZE, (10_000, 3))
         self.starts[::2], self.ends[::2] = self.starts[::2].round(1), self.ends[::2].round(1)
         facets = self.environment.facets()
         self.walls = facets[facets["wall"]]

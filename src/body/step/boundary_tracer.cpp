@@ -16,7 +16,7 @@
 namespace cellwalk {
 namespace {
 
-/// Shifts of a point off a joined wall, in ulp.
+/// The largest shift of a point off a joined wall, in ulp.
 constexpr int largest_shift = 1024;
 
 /// A vector that leads into a wall, mirrored in its plane.
@@ -68,10 +68,8 @@ template <int D>
 bool Boundary_tracer<D>::passes(const Passage& passage, Particle<D>& particle,
                                 const Vector<D>& normal) const {
   const Point<D> there = particle.position + passage.translation;
-  const double unit = detail::ulp<D>(there == Point<D>{} ? particle.position : there);
-  // Off the wall that is reached, which faces the other way.
-  for (int shift = 0; shift <= largest_shift; shift = std::max(1, 2 * shift)) {
-    const Point<D> x = there - (shift * unit) * normal;
+  const double unit = std::max(detail::ulp<D>(there), detail::ulp<D>(particle.position));
+  const auto is_found = [&](const Point<D>& x) {
     if (!is_finite(x)) return false;
     const Location<D> at = locator_.locate(x);
     for (std::size_t i = 0; i < at.cells.size(); ++i)
@@ -79,7 +77,20 @@ bool Boundary_tracer<D>::passes(const Passage& passage, Particle<D>& particle,
         particle = at.sides[static_cast<std::size_t>(at.side_of_cell[i])];
         return true;
       }
-  }
+    return false;
+  };
+  // Off the wall that is reached, which faces the other way.
+  if (is_found(there)) return true;
+  for (int shift = 1; shift <= largest_shift; shift *= 2)
+    if (is_found(there - (shift * unit) * normal)) return true;
+  // At its rim off other walls, too.
+  constexpr int directions = D == 2 ? 9 : 27;
+  for (int shift = 1; shift <= largest_shift; shift *= 2)
+    for (int direction = 0; direction < directions; ++direction) {
+      Point<D> x = there;
+      for (int k = 0, digits = direction; k < D; ++k, digits /= 3) x[k] += shift * unit * (digits % 3 - 1);
+      if (is_found(x)) return true;
+    }
   return false;
 }
 
@@ -89,21 +100,21 @@ bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D
   const auto answer = answers_.find(to_index(wall));
   if (answer == answers_.end()) return false;
   const Walk_result<D> result = walk<Exact>(snapshot_, particle, target, counts);
-  const Contact<D> contact =
-      vertex_contact(snapshot_, particle.position, target, result.contact.value(), counts);
-  const Vector<D> rest = (1 - contact.time) * (target - particle.position);
+  const Point<D> from = particle.position;
+  const Contact<D> contact = vertex_contact(snapshot_, from, target, result.contact.value(), counts);
   stop_at_contact(snapshot_, particle, target, contact, counts);
-  if (answer->second != reflects) {
+  Vector<D> rest = (1 - contact.time) * (target - from), off = contact.normal;  // off the wall it starts from
+  if (answer->second == reflects) {
+    heading = mirror<D>(heading, contact.normal);
+    rest = mirror<D>(rest, contact.normal);
+  } else {
     if (!passes(passages_[answer->second], particle, contact.normal)) return false;
-    target = particle.position + rest;
-    return is_finite(target);
+    off = -1.0 * off;
   }
-  heading = mirror<D>(heading, contact.normal);
-  const Vector<D> mirrored = mirror<D>(rest, contact.normal);
-  // What leaves the wall by a few ulp may lead into it by rounding.
-  const Vector<D> lift = detail::lift<D>(particle.position, mirrored, contact.normal);
-  const bool grazes = dot(mirrored, contact.normal) < 2 * length(lift);
-  target = particle.position + (grazes ? mirrored + lift : mirrored);
+  // What leaves a wall by a few ulp may lead into it by rounding.
+  const double unit = std::max(detail::ulp<D>(particle.position), detail::ulp<D>(from));
+  const Vector<D> lift = (detail::contact_offset_ulps * unit) * off;
+  target = particle.position + (dot(rest, off) < 2 * length(lift) ? rest + lift : rest);
   return is_finite(target);
 }
 

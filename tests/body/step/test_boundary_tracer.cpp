@@ -39,6 +39,23 @@ std::vector<Half_facet> walls_at(const Snapshot<D>& snapshot, std::size_t axis, 
   return walls(snapshot, [&](const Point<D>& mean) { return mean[axis] == coordinate; });
 }
 
+/// A rotation about the last axis, and its inverse; rounded.
+constexpr double cosine = 0.8, sine = 0.6;
+template <std::size_t D>
+std::array<double, D> turned(std::array<double, D> x) {
+  const double a = x[0], b = x[1];
+  x[0] = cosine * a - sine * b;
+  x[1] = sine * a + cosine * b;
+  return x;
+}
+template <std::size_t D>
+std::array<double, D> turned_back(std::array<double, D> x) {
+  const double a = x[0], b = x[1];
+  x[0] = cosine * a + sine * b;
+  x[1] = cosine * b - sine * a;
+  return x;
+}
+
 /// A room, the tools to trace in it, and random motions; every other one from and to eighths.
 template <int D>
 struct Motions {
@@ -65,23 +82,6 @@ struct Motions {
   std::vector<Particle<D>> particles;
   std::vector<Point<D>> targets;
 };
-
-/// A rotation about the last axis, and its inverse; rounded.
-constexpr double cosine = 0.8, sine = 0.6;
-template <std::size_t D>
-std::array<double, D> turned(std::array<double, D> x) {
-  const double a = x[0], b = x[1];
-  x[0] = cosine * a - sine * b;
-  x[1] = sine * a + cosine * b;
-  return x;
-}
-template <std::size_t D>
-std::array<double, D> turned_back(std::array<double, D> x) {
-  const double a = x[0], b = x[1];
-  x[0] = cosine * a + sine * b;
-  x[1] = cosine * b - sine * a;
-  return x;
-}
 
 template <int D>
 Cell_soup<D> room_soup(double jitter) {
@@ -195,7 +195,7 @@ TEST(BoundaryTracer, GrazesWalls) {
       particles.push_back(*particle);
       targets.push_back(turned(Point<3>{0, random.real(0, room_size), random.real(0, room_size)}));
     }
-  ASSERT_GT(particles.size(), 300u);
+  ASSERT_GT(particles.size(), 200u);
   Traces traces;
   Walk_counts counts;
   boundary.trace(particles, targets, 1000, traces, counts);
