@@ -59,6 +59,7 @@ class Boundary_tracer {
   /// One direction of a joined pair.
   struct Passage {
     Vector<D> translation;
+    double reach;  ///< by how much points are shifted off these walls, which may be rounded, at most
     std::unordered_set<std::uint32_t> cells;  ///< at the walls that are reached
   };
   static constexpr std::size_t reflects = static_cast<std::size_t>(-1);

@@ -16,9 +16,6 @@
 namespace cellwalk {
 namespace {
 
-/// The largest shift of a point off a joined wall, in ulp.
-constexpr int largest_shift = 1024;
-
 /// A vector that leads into a wall, mirrored in its plane.
 template <int D>
 Vector<D> mirror(const Vector<D>& v, const Vector<D>& normal) {
@@ -81,14 +78,14 @@ bool Boundary_tracer<D>::passes(const Passage& passage, Particle<D>& particle,
   };
   // Off the wall that is reached, which faces the other way.
   if (is_found(there)) return true;
-  for (int shift = 1; shift <= largest_shift; shift *= 2)
-    if (is_found(there - (shift * unit) * normal)) return true;
+  for (double shift = unit; shift <= passage.reach; shift *= 2)
+    if (is_found(there - shift * normal)) return true;
   // At its rim off other walls, too.
   constexpr int directions = D == 2 ? 9 : 27;
-  for (int shift = 1; shift <= largest_shift; shift *= 2)
+  for (double shift = unit; shift <= passage.reach; shift *= 2)
     for (int direction = 0; direction < directions; ++direction) {
       Point<D> x = there;
-      for (int k = 0, digits = direction; k < D; ++k, digits /= 3) x[k] += shift * unit * (digits % 3 - 1);
+      for (int k = 0, digits = direction; k < D; ++k, digits /= 3) x[k] += shift * (digits % 3 - 1);
       if (is_found(x)) return true;
     }
   return false;

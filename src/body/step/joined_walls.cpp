@@ -156,7 +156,7 @@ Vector<D> Boundary_tracer<D>::join(std::span<const Half_facet> left, std::span<c
   for (const auto& [walls, others, way] :
        {std::tuple(&from, &to, translation), std::tuple(&to, &from, -1.0 * translation)}) {
     for (const Half_facet wall : *walls) answer(wall, passages_.size());
-    passages_.push_back({way, cells_at<D>(snapshot_, *others)});
+    passages_.push_back({way, rounding * size, cells_at<D>(snapshot_, *others)});
   }
   return translation;
 }
