@@ -4,7 +4,6 @@
 #include <cellwalk/body/boundary_tracer.h>
 #include <cellwalk/body/verified_stop.h>
 #include <cellwalk/internal/body/stop_candidates.h>
-#include <cellwalk/internal/kernel/check_finite.h>
 #include <cellwalk/kernel/error.h>
 
 #include <algorithm>
@@ -109,7 +108,8 @@ bool Boundary_tracer<D>::goes_on(Half_facet wall, Particle<D>& particle, Point<D
     off = -1.0 * off;
   }
   // What leaves a wall by a few ulp may lead into it by rounding.
-  const double unit = std::max(detail::ulp<D>(particle.position), detail::ulp<D>(from));
+  const double unit =
+      std::max({detail::ulp<D>(particle.position), detail::ulp<D>(from), detail::ulp<D>(rest)});
   const Vector<D> lift = (detail::contact_offset_ulps * unit) * off;
   target = particle.position + (dot(rest, off) < 2 * length(lift) ? rest + lift : rest);
   return is_finite(target);

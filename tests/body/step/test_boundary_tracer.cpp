@@ -197,7 +197,11 @@ TEST(BoundaryTracer, GrazesWalls) {
   for (const Half_facet wall :
        walls(motions.snapshot, [](const Point<3>& mean) { return std::abs(turned_back(mean)[0]) < 0x1p-40; }))
     for (int i = 0; i < 100; ++i) {
-      const auto particle = motions.locator.particle_at(centroid(motions.snapshot, wall));
+      // From points of its plane, or near it.
+      const std::vector<std::uint32_t> corners = motions.snapshot.loop(wall);
+      const Point<3> from =
+          i % 2 == 0 ? motions.snapshot.point(corners[0]) : centroid(motions.snapshot, wall);
+      const auto particle = motions.locator.particle_at(from);
       if (!particle) continue;  // its rounded mean lies outside
       particles.push_back(*particle);
       targets.push_back(turned(Point<3>{0, random.real(0, room_size), random.real(0, room_size)}));
