@@ -18,6 +18,7 @@ io=(libvtk9-dev)
 mpi=(libboost-mpi-dev libopenmpi-dev openmpi-bin) # runs shared among processes
 python=(pybind11-dev python3-dev python3-numpy)
 cluster=(python3-distributed) # for the example of Dask
+python_tests=(mypy python3-meshio python3-vtk9) # the stubs, and arrays to and from other programs
 tests=(libgmsh-dev libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium
        python3-pip python3-setuptools python3-wheel)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
@@ -42,8 +43,8 @@ done
 packages=("${core[@]}" "${meshing[@]}")
 case "$purpose" in
   demo) ;;
-  test) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}") ;;
-  ci | dev) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${tests[@]}" "${fuzzing[@]}" "${documentation[@]}" clang-tidy ccache valgrind) ;;
+  test) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${python_tests[@]}" "${tests[@]}") ;;
+  ci | dev) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" "${cluster[@]}" "${python_tests[@]}" "${tests[@]}" "${fuzzing[@]}" "${documentation[@]}" clang-tidy ccache valgrind) ;;
   package) packages+=("${io[@]}" "${mpi[@]}" "${python[@]}" dpkg-dev file debootstrap) ;;
   peers) packages+=("${peers[@]}" "${pictures[@]}") ;;
   paper) packages+=("${peers[@]}" "${latex[@]}") ;;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// All that most programs need: environments from files and generators, particles, edges, bodies, queries,
-// walls that move, pictures. docs/start.md begins with this header, which includes nothing of CGAL.
+// All that most programs need: environments from files and generators, particles, traces, edges, bodies,
+// queries, walls that move, pictures. docs/start.md begins with this header, which includes nothing of CGAL.
 // import_environment() is in the library cellwalk::loading, draw() in cellwalk::drawing, all else in
 // cellwalk::core. Not included: the combinatorial map (environment/map.h), the walk for number types of your
 // own (walk/walk_impl.h), compiled environments and parts by place or name (environment/compiled.h,
@@ -24,6 +24,8 @@
 #include <cellwalk/records/body_soup.h>
 #include <cellwalk/reshape/reshaping.h>
 #include <cellwalk/walk/locate.h>
+#include <cellwalk/walk/tally.h>
+#include <cellwalk/walk/trace.h>
 #include <cellwalk/walk/walk.h>
 
 #endif  // CELLWALK_CELLWALK_H

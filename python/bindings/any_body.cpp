@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "body_rows.h"
+#include "cell_tables.h"
 #include "motions.h"
 #include "options.h"
 #include "pickling.h"
@@ -34,39 +35,60 @@ Body_soup<D> soup_of_arrays(const py::object& points, const py::object& edges, c
   const auto given = points_of<D>(points, "points");
   parts.points.assign(given.begin(), given.end());
   if (!edges.is_none()) {
-    const Index_table table = indices_of(edges, "edges", given.size());
-    if (table.columns != 2)
-      throw py::value_error(fmt::format("edges has {} columns: an edge has 2 ends", table.columns));
-    for (std::size_t i = 0; i < table.rows; ++i) parts.segments.push_back({table.row(i)[0], table.row(i)[1]});
+    const Index_table table = indices_of(edges, "edges", {2, 2}, given.size());
+    for (std::size_t i = 0; i < table.size(); ++i)
+      parts.segments.push_back({table.row(i)[0], table.row(i)[1]});
   }
   if (!faces.is_none()) {
-    const Index_table table = indices_of(faces, "faces", given.size());
-    if (table.columns < 3)
-      throw py::value_error(
-          fmt::format("faces has {} columns: a face has at least 3 corners", table.columns));
-    for (std::size_t i = 0; i < table.rows; ++i)
+    const Index_table table = indices_of(faces, "faces", polygons, given.size());
+    for (std::size_t i = 0; i < table.size(); ++i)
       parts.polygons.emplace_back(table.row(i).begin(), table.row(i).end());
   }
-  const Radii radii(radius, parts.segments.size(), "edges");
-  const bool is_one_for_all = !py::isinstance<py::array>(radius);
-  if (!is_one_for_all) parts.radii.assign(radii.values().begin(), radii.values().end());
+  const Radii radii(radius, parts.segments.size(), "the edges");
+  if (!radii.is_one_for_all()) parts.radii.assign(radii.values().begin(), radii.values().end());
   Body_soup<D> soup = make_body(std::move(parts)).body;
-  if (is_one_for_all) soup.radii = {radii[0]};
+  if (radii.is_one_for_all()) soup.radii = {radii[0]};
   return soup;
 }
 
 template <std::size_t D>
 void need_finite(const std::array<double, D>& target, std::size_t vertex) {
-  if (!is_usable(target)) throw py::value_error(fmt::format("the target of vertex {} is not finite", vertex));
+  if (!is_usable(target))
+    throw Error(Error_code::input, fmt::format("the target of vertex {} is not finite", vertex));
 }
 
+/// Where the vertices of a body go: all of them, or those of some rows, and the others stand still.
 template <int D>
-std::span<const Point<D>> targets_of(const Body<D>& body, const py::object& targets) {
-  const auto to = points_of<D>(targets, "targets");
-  need_equal(to.size(), "targets", body.vertex_count(), "the body");
-  for (std::size_t i = 0; i < to.size(); ++i) need_finite(to[i], i);
-  return to;
-}
+class Body_targets {
+ public:
+  /// \param rows or None
+  Body_targets(const Body<D>& body, const py::object& targets, const py::object& rows)
+      : given_(points_of<D>(targets, "targets")), are_all_(rows.is_none()) {
+    if (!are_all_) rows_ = distinct_numbers_of(rows, "rows", body.vertex_count(), "vertices");
+    need_rows(given_, "targets", are_all_ ? body.vertex_count() : rows_.size(),
+              are_all_ ? "the vertices" : "rows");
+    for (std::size_t i = 0; i < given_.size(); ++i) need_finite(given_[i], are_all_ ? i : rows_[i]);
+    if (are_all_) return;
+    moves_.resize(body.vertex_count());
+    for (const std::uint32_t row : rows_) moves_[row] = true;
+  }
+
+  /// For all vertices of the body as it is now.
+  std::span<const Point<D>> of(const Body<D>& body) {
+    if (are_all_) return given_;
+    all_.assign(body.positions().begin(), body.positions().end());
+    for (std::size_t i = 0; i < rows_.size(); ++i) all_[rows_[i]] = given_[i];
+    return all_;
+  }
+  bool moves(std::uint32_t vertex) const { return are_all_ || moves_[vertex]; }
+
+ private:
+  Points<D> given_;
+  bool are_all_;
+  std::vector<std::uint32_t> rows_;
+  std::vector<bool> moves_;
+  std::vector<Point<D>> all_;
+};
 
 template <std::size_t N>
 py::array_t<std::uint32_t> table_of(std::span<const std::array<std::uint32_t, N>> rows) {
@@ -110,32 +132,33 @@ Any_body::Any_body(Held_world environment, const std::string& path)
       body_(place(*environment_->world,
                   [&]<int D>(std::integral_constant<int, D>) { return io::read_body<D>(path).body; })) {}
 
-Any_body Any_body::rope(Held_world environment, const py::object& path, double spacing) {
+Any_body Any_body::rope(Held_world environment, const py::object& path, double spacing,
+                        const py::object& radius) {
   Bodies body = place(*environment->world, [&]<int D>(std::integral_constant<int, D>) {
     const auto points = points_of<D>(path, "path");
-    return cellwalk::rope<D>({points.begin(), points.end()}, spacing);
+    Body_soup<D> soup = cellwalk::rope<D>({points.begin(), points.end()}, spacing);
+    const Radii radii(radius, soup.edges.size(), "the edges of the rope");
+    soup.radii.assign(radii.values().begin(), radii.values().end());
+    return soup;
   });
   return {std::move(environment), std::move(body)};
 }
 
-void Any_body::draw(const Held_world& environment, const std::vector<const Any_body*>& bodies,
+void Any_body::draw(const Held_world& environment, const std::vector<Any_body*>& bodies,
                     const py::object& contacts, const std::string& file) {
   std::visit(
       [&]<int D>(const World<D>& any) {
         std::vector<const Body<D>*> drawn;
-        for (const Any_body* body : bodies) {
-          if (body->environment_->world != environment->world)
-            throw py::value_error("a body of another environment cannot be drawn in this one");
-          drawn.push_back(&std::get<Body<D>>(body->body_));
-        }
+        for (const Any_body* body : bodies) drawn.push_back(&std::get<Body<D>>(body->body_));
         std::vector<Contact<D>> met;
         if (!contacts.is_none()) {
           const auto column = [&](const char* name) {
-            return py::module_::import("numpy").attr("ascontiguousarray")(contacts[name]);
+            if (!has_field(as_array(contacts), name))
+              throw py::type_error("contacts must be rows as Body.step() returns them: they have no " +
+                                   std::string(name));
+            return points_of<D>(contacts[name], "contacts");
           };
-          const py::object of_points = column("point"), of_normals = column("normal");
-          const auto points = points_of<D>(of_points, "contacts"),
-                     normals = points_of<D>(of_normals, "contacts");
+          const auto points = column("point"), normals = column("normal");
           for (std::size_t i = 0; i < points.size(); ++i) {
             Contact<D>& contact = met.emplace_back();
             contact.point = points[i];
@@ -178,7 +201,7 @@ py::array_t<double> Any_body::radii() {
 
 void Any_body::set_radii(const py::object& radius) {
   const std::size_t edges = std::visit([](const auto& body) { return body.edges().size(); }, body_);
-  const Radii radii(radius, edges, "Body.edges");
+  const Radii radii(radius, edges, "the edges");
   reading([&](auto& body, const auto&) { body.set_radii(radii.values()); });
 }
 
@@ -191,20 +214,21 @@ py::array_t<double> Any_body::clearances(double up_to) {
   return to_array(std::move(all));
 }
 
-py::array Any_body::step(const py::object& targets, const Body_options& options) {
+py::array Any_body::step(const py::object& targets, const py::object& rows, const Body_options& options) {
   return std::visit(
       [&]<int D>(Body<D>& body) -> py::array {
-        const auto to = targets_of(body, targets);
+        Body_targets<D> to(body, targets, rows);
         if (options.rule == Step_rule::reject_at_target) need_few_edges(body);
         Step_report<D> report;
         std::vector<Body_contact_row<D>> contacts;
         std::vector<Rejected_row<D>> blocked;
         {
           const typename World<D>::Reading world(std::get<World<D>>(*environment_->world), *moving_);
-          body.step(to, options, report, counts_);
-          for (const Contact<D>& met : report.contacts) contacts.push_back(to_row(world.snapshot(), met));
+          body.step(to.of(body), options, report, counts_);
+          for (const Contact<D>& met : report.contacts)
+            if (to.moves(met.vertex)) contacts.push_back(to_row(world.snapshot(), met));
           for (const Rejected_move<D>& move : report.blocked)
-            blocked.push_back(to_row(world.snapshot(), move));
+            if (to.moves(move.vertex)) blocked.push_back(to_row(world.snapshot(), move));
         }
         return options.reports_blocked ? py::array(to_array(std::move(blocked)))
                                        : py::array(to_array(std::move(contacts)));
@@ -221,7 +245,7 @@ py::array Any_body::move_vertex(std::uint32_t vertex, const py::object& target, 
   need_vertex(vertex);
   return std::visit(
       [&]<int D>(Body<D>& body) -> py::array {
-        const auto to = target.cast<std::array<double, D>>();
+        const Point<D> to = point_of<D>(target, "target");
         need_finite(to, vertex);
         std::vector<Body_contact_row<D>> rows;
         {
@@ -282,7 +306,7 @@ py::dict Any_body::counts() const {
 
 void Any_body::need_vertex(std::uint32_t vertex) const {
   if (vertex >= vertex_count())
-    throw py::index_error(
+    throw Row_error(
         fmt::format("there is no vertex {}: the body has {}, numbered from 0", vertex, vertex_count()));
 }
 
@@ -292,10 +316,9 @@ void Any_body::need_few_edges(const Body<D>& body) {
   constexpr std::size_t most = 64;
   for (std::uint32_t v = 0; v < body.vertex_count(); ++v)
     if (const std::size_t count = body.neighbours(v).size(); count > most)
-      throw py::value_error(
-          fmt::format("vertex {} has {} edges: edges=\"at_target\" takes at most {} a vertex, "
-                      "edges=\"swept\" any number",
-                      v, count, most));
+      throw Error(Error_code::usage, fmt::format("vertex {} has {} edges: rule=\"reject_at_target\" takes at "
+                                                 "most {} a vertex, rule=\"reject\" any number",
+                                                 v, count, most));
   has_few_edges_ = true;
 }
 

@@ -26,7 +26,8 @@ class Any_body {
            const py::object& radius);
   /// The body of a file.
   Any_body(Held_world environment, const std::string& path);
-  static Any_body rope(Held_world environment, const py::object& path, double spacing);
+  static Any_body rope(Held_world environment, const py::object& path, double spacing,
+                       const py::object& radius);
 
   py::array positions(const py::object& self) const;
   py::array_t<std::uint32_t> edges() const;
@@ -35,7 +36,8 @@ class Any_body {
   py::array_t<double> radii();
   void set_radii(const py::object& radius);
   py::array_t<double> clearances(double up_to);
-  py::array step(const py::object& targets, const Body_options& options);
+  /// \param rows the vertices that move, or None for all
+  py::array step(const py::object& targets, const py::object& rows, const Body_options& options);
   py::array_t<std::uint32_t> neighbours(std::uint32_t vertex) const;
   py::array move_vertex(std::uint32_t vertex, const py::object& target, const Body_options& options);
   void validate();
@@ -47,11 +49,11 @@ class Any_body {
   static Any_body of_state(const py::tuple& state);
   py::dict counts() const;
 
+  const Held_world& environment() const { return environment_; }
   std::shared_ptr<const Any_world> world() const { return environment_->world; }
-  /// Draws bodies of one environment in it.
+  /// Draws bodies of an environment in it.
   /// \param contacts of step(), or None
-  /// \throw py::value_error for a body of another environment
-  static void draw(const Held_world& environment, const std::vector<const Any_body*>& bodies,
+  static void draw(const Held_world& environment, const std::vector<Any_body*>& bodies,
                    const py::object& contacts, const std::string& file);
   /// For reshape(), which is alone in the world.
   template <int D>

@@ -22,7 +22,7 @@ struct Selected {
 };
 
 /// The part of a group that is left.
-/// \throw ValueError if there is no such group
+/// \throw InputError if there is no such group
 template <int D>
 Selection<D> group_of(const typename World<D>::Looking& looking, const std::string& name) {
   Groups<D> groups = looking.groups();
@@ -30,34 +30,32 @@ Selection<D> group_of(const typename World<D>::Looking& looking, const std::stri
   if (found != groups.end()) return std::move(found->second);
   std::string names;
   for (const auto& [known, selection] : groups) names += (names.empty() ? "" : ", ") + known;
-  throw py::value_error(
-      fmt::format("there is no group \"{}\": the environment has {}", name, names.empty() ? "none" : names));
+  throw Error(Error_code::input, fmt::format("there is no group \"{}\": the environment has {}", name,
+                                             names.empty() ? "none" : names));
 }
 
 template <int D>
 std::array<Point<D>, 2> two_points(const py::object& given, const char* name) {
-  try {
-    return given.cast<std::array<Point<D>, 2>>();
-  } catch (const py::cast_error&) {
-    throw py::type_error(fmt::format("{} must be a pair of sequences of {} numbers", name, D));
-  }
+  const Points<D> points(given, name);
+  if (points.size() != 2) refuse_rows(name, points.size(), D, 2, "its points");
+  return {points[0], points[1]};
 }
 
 template <int D>
 std::pair<Point<D>, double> point_and_number(const py::object& given, const char* name) {
-  try {
-    return given.cast<std::pair<Point<D>, double>>();
-  } catch (const py::cast_error&) {
-    throw py::type_error(fmt::format("{} must be a pair of a sequence of {} numbers and a number", name, D));
-  }
+  if (!py::isinstance<py::sequence>(given) || py::len(given) != 2 ||
+      !PyNumber_Check(given[py::int_(1)].ptr()))
+    throw py::type_error(fmt::format("{} must be a pair of a point and a number", name));
+  return {point_of<D>(given[py::int_(0)], name), py::float_(given[py::int_(1)]).cast<double>()};
 }
 
 template <int D>
 void need_finite(const Point<D>& x, const char* name) {
-  if (!is_finite(x)) throw py::value_error(fmt::format("{} has a coordinate that is not finite", name));
+  if (!is_finite(x))
+    throw Error(Error_code::input, fmt::format("{} has a coordinate that is not finite", name));
 }
 
-/// \throw TypeError for other shapes, ValueError for numbers that make none, UsageError for no condition
+/// \throw TypeError for no numbers, InputError for those that make none, UsageError for no condition
 template <int D>
 Environment_part<D> part_of(const py::object& box, const py::object& ball, const py::object& plane) {
   Environment_part<D> part;
@@ -71,14 +69,14 @@ Environment_part<D> part_of(const py::object& box, const py::object& ball, const
     need_finite<D>(upper, "box");
     for (std::size_t k = 0; k < D; ++k)
       if (lower[k] > upper[k])
-        throw py::value_error("box: the first corner is the lower one in all coordinates");
+        throw Error(Error_code::input, "box: the first corner is the lower one in all coordinates");
     part.shape = Scene_box<D>{lower, upper};
   }
   if (!ball.is_none()) {
     const auto [centre, radius] = point_and_number<D>(ball, "ball");
     need_finite<D>(centre, "ball");
     if (!(radius > 0 && radius < std::numeric_limits<double>::infinity()))
-      throw py::value_error("ball: the radius is a positive number");
+      throw Error(Error_code::input, "ball: the radius is a positive number");
     part.shape = Scene_ball<D>{centre, radius};
   }
   if (!plane.is_none()) {
@@ -87,7 +85,7 @@ Environment_part<D> part_of(const py::object& box, const py::object& ball, const
     need_finite<D>(normal, "plane");
     part.plane = Scene_plane<D>{point, normal};
     if (!(dot(part.plane->normal, part.plane->normal) > 0))
-      throw py::value_error("plane: a normal cannot be zero");
+      throw Error(Error_code::input, "plane: a normal cannot be zero");
   }
   return part;
 }
@@ -129,7 +127,11 @@ void bind_edit_results(py::module_& module) {
   py::class_<Selected>(module, "Selection", "Facets and cells of a part of an environment.")
       .def_readonly("facets", &Selected::facets,
                     "Those between two cells, each once; a structured array as of Environment.facets().")
-      .def_readonly("cells", &Selected::cells, "A structured array as of Environment.cells().");
+      .def_readonly("cells", &Selected::cells, "A structured array as of Environment.cells().")
+      .def("__repr__", [](const Selected& self) {
+        return fmt::format("<cellwalk.Selection of {} facets, {} cells>", self.facets.size(),
+                           self.cells.size());
+      });
   py::class_<Changes>(module, "Changes", "What came of facets or cells that were changed, row by row.")
       .def_readonly("made", &Changes::made,
                     "bool (N,): True also where nothing had to be changed; False where it was refused.")
@@ -190,7 +192,11 @@ void bind_edit_results(py::module_& module) {
           "points", &Cut_made::points,
           "A structured array of the points that were made: point, between (the ends of the edge on "
           "which it lies, or twice the point from which it was taken back) and share (of the edge, "
-          "from the first end).");
+          "from the first end).")
+      .def("__repr__", [](const Cut_made& self) {
+        return fmt::format("<cellwalk.CutReport, {} facets, {} points parted, {} edges refused>",
+                           self.report.facets, self.report.opened, self.report.refused());
+      });
   py::class_<Relax_report>(module, "RelaxReport", "What came of cells that were made better.")
       .def_readonly("smoothed", &Relax_report::smoothed, "Points moved.")
       .def_readonly("flipped", &Relax_report::flipped, "Facets flipped.")
@@ -201,7 +207,11 @@ void bind_edit_results(py::module_& module) {
       .def_readonly("rounds", &Relax_report::rounds, "Rounds made.")
       .def_readonly("least_before", &Relax_report::least_before, "The least quality of the cells before.")
       .def_readonly("least_after", &Relax_report::least_after, "The least quality of the cells after it.")
-      .def_property_readonly("operations", &Relax_report::operations, "All operations made.");
+      .def_property_readonly("operations", &Relax_report::operations, "All operations made.")
+      .def("__repr__", [](const Relax_report& self) {
+        return fmt::format("<cellwalk.RelaxReport, {} operations, least quality {:.3g}, then {:.3g}>",
+                           self.operations(), self.least_before, self.least_after);
+      });
 }
 
 void bind_toggles(py::class_<Edits>& edits) {
@@ -275,7 +285,10 @@ void bind_replacements(py::class_<Edits>& edits) {
            "sweep: the displacement by which the line is swept (3D).\n"
            "opening: how far cells are taken back at first, in lengths.\n"
            "snap: where the blade passes an edge nearer to an end than this share of it, it passes the end.")
-      .def_property_readonly("counts", &Edits::counts, "The machine-independent counts so far.");
+      .def_property_readonly("counts", &Edits::counts, "The machine-independent counts so far.")
+      .def("__repr__", [](const Edits& self) {
+        return self.is_open() ? "<cellwalk.Edits, open>" : "<cellwalk.Edits, not open>";
+      });
 }
 
 void bind_class(py::module_& module) {
@@ -308,7 +321,7 @@ void bind_edits(py::module_& module, Environment_class& environment) {
   environment
       .def(
           "editing",
-          [](const Shared_world& self, const py::iterable& bodies, const py::iterable& particles) {
+          [](const Shared_world& self, const py::object& bodies, const py::object& particles) {
             return std::make_unique<Edits>(self.world, listed_of(self.world, bodies, particles));
           },
           py::kw_only(), py::arg("bodies") = py::tuple(), py::arg("particles") = py::tuple(),

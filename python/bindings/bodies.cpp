@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Bodies: vertices with edges and faces that no wall ever crosses.
-#include <pybind11/stl.h>
+#include <fmt/core.h>
 
 #include <string>
 
 #include "any_body.h"
 #include "body_rows.h"
+#include "listed.h"
 #include "module.h"
 #include "options.h"
 
@@ -49,7 +50,7 @@ void bind_bodies(py::module_& module) {
       .def(
           py::init<std::shared_ptr<Shared_world>, const py::object&, const py::object&, const py::object&,
                    const py::object&>(),
-          py::arg("environment"), py::arg("points"), py::arg("edges") = py::none(),
+          py::arg("environment").none(false), py::arg("points"), py::arg("edges") = py::none(),
           py::arg("faces") = py::none(), py::arg("radius") = 0.0,
           "Registers a body where it stands: points (N, dimension), edges (M, 2), faces (K, 3) or polygons "
           "(K, k), whose sides are edges too. OutsideError names a vertex that is not in free space, an edge "
@@ -62,16 +63,26 @@ void bind_bodies(py::module_& module) {
       .def_static(
           "read",
           [](const std::shared_ptr<Shared_world>& environment, const py::object& path) {
-            return Any_body(environment, std::string(py::str(path)));
+            return Any_body(environment, path_of(path));
           },
-          py::arg("environment"), py::arg("path"),
+          py::arg("environment").none(false), py::arg("path"),
           "Registers the body of a mesh file or of a polyline in CSV, with the radii that its edges have "
           "there.")
       .def_static(
-          "rope", &Any_body::rope, py::arg("environment"), py::arg("path"), py::arg("spacing"),
+          "rope", &Any_body::rope, py::arg("environment").none(false), py::arg("path"), py::arg("spacing"),
+          py::arg("radius") = 0.0,
           "Registers a rope along a path, points (N, dimension): a polyline through all of them, with "
-          "edges no longer than the spacing.")
+          "edges no longer than the spacing. radius: as of the class.")
       .def("__len__", &Any_body::vertex_count)
+      .def("__repr__",
+           [](const Any_body& self) {
+             return fmt::format("<cellwalk.Body, {} vertices, {} edges, {} faces>", self.vertex_count(),
+                                self.edges().shape(0), self.faces().shape(0));
+           })
+      .def_property_readonly(
+          "environment",
+          [](const Any_body& self) { return std::const_pointer_cast<Shared_world>(self.environment()); },
+          "The environment in which it lies.")
       .def_property_readonly(
           "positions", [](const py::object& self) { return self.cast<const Any_body&>().positions(self); },
           "float64 (N, dimension): a read-only view, no copy: it changes as the body moves.")
@@ -92,19 +103,24 @@ void bind_bodies(py::module_& module) {
            "up_to.")
       .def(
           "step",
-          [](Any_body& self, const py::object& targets, const std::string& sweep, const std::string& touch,
-             const std::string& search, double tolerance, const std::string& rule, const std::string& report,
-             bool clearance, int most_contacts) {
+          [](Any_body& self, const py::object& targets, const py::object& rows, const std::string& sweep,
+             const std::string& touch, const std::string& search, double tolerance, const std::string& rule,
+             const std::string& report, bool clearance, int most_contacts) {
             Search_options searched;
-            return self.step(targets, to_options({sweep, touch, search, "flooded", tolerance}, searched,
-                                                 {rule, report}, clearance, most_contacts));
+            return self.step(targets, rows,
+                             to_options({sweep, touch, search, "flooded", tolerance}, searched,
+                                        {rule, report}, clearance, most_contacts));
           },
-          py::arg("targets"), py::kw_only(), py::arg("sweep") = "triangle", py::arg("touch") = "pass",
-          py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20, py::arg("rule") = "slide",
-          py::arg("report") = "contacts", py::arg("clearance") = true, py::arg("most_contacts") = 4,
+          py::arg("targets"), py::kw_only(), py::arg("rows") = py::none(), py::arg("sweep") = "triangle",
+          py::arg("touch") = "pass", py::arg("search") = "exact", py::arg("tolerance") = 0x1p-20,
+          py::arg("rule") = "slide", py::arg("report") = "contacts", py::arg("clearance") = true,
+          py::arg("most_contacts") = 4,
           "Moves the vertices one after the other to their targets, as far as walls allow. Returns the "
           "contacts as a structured array: vertex (that moved), feature (number of the vertex, edge or face "
           "that met the wall), time, point, normal, kind, body, cell, facet.\n\n"
+          "rows: only these vertices move, in ascending order, and `targets` has a row for each: integers, "
+          "or "
+          "a mask. The others stand still.\n"
           "sweep: \"triangle\": nothing that an edge sweeps is missed; \"faces\": nor a face; "
           "\"three_segments\": the paper's.\n"
           "rule: \"slide\": a vertex that meets a wall, itself or by an edge that sweeps, slides along it, "
@@ -150,10 +166,12 @@ void bind_bodies(py::module_& module) {
       .def_property_readonly("counts", &Any_body::counts, "What all moves did: machine-independent counts.");
   module.def(
       "draw",
-      [](const std::shared_ptr<Shared_world>& environment, const std::vector<const Any_body*>& bodies,
-         const py::object& contacts,
-         const py::object& file) { Any_body::draw(environment, bodies, contacts, py::str(file)); },
-      py::arg("environment"), py::arg("bodies"), py::arg("contacts") = py::none(), py::kw_only(),
+      [](const std::shared_ptr<Shared_world>& environment, const py::object& bodies,
+         const py::object& contacts, const py::object& file) {
+        const Listed listed = listed_of(environment->world, bodies, py::tuple());
+        Any_body::draw(environment, listed.bodies, contacts, path_of(file));
+      },
+      py::arg("environment").none(false), py::arg("bodies"), py::arg("contacts") = py::none(), py::kw_only(),
       py::arg("file"),
       "Draws the walls of an environment with bodies and contacts, as step() returns them, into a PNG file "
       "of "

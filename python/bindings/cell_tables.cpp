@@ -70,7 +70,7 @@ template <int D>
 Cell cell_at(const Snapshot<D>& snapshot, std::int64_t number, const char* name, std::size_t row) {
   if (number >= 0 && static_cast<std::uint64_t>(number) < snapshot.cell_slots())
     if (const Cell cell = snapshot.cell(static_cast<std::size_t>(number)); cell != Cell::none) return cell;
-  throw py::value_error(fmt::format("{}[{}]: there is no cell {}", name, row, number));
+  throw Row_error(fmt::format("{}[{}]: there is no cell {}", name, row, number));
 }
 
 /// True if the points given for a row are those of a loop or cell; also if none are given.
@@ -83,11 +83,6 @@ bool has_points(const std::vector<std::int64_t>& given, std::size_t width, std::
   const auto first = given.begin() + static_cast<std::ptrdiff_t>(row * width);
   const auto last = first + static_cast<std::ptrdiff_t>(width);
   return std::equal(std::upper_bound(first, last, no_number), last, sorted.begin(), sorted.end());
-}
-
-bool has_field(const py::array& array, const char* field) {
-  const py::object names = array.dtype().attr("names");
-  return !names.is_none() && names.contains(field);
 }
 
 std::vector<std::int64_t> integers(const py::object& of) {
@@ -112,15 +107,12 @@ bool is_of_integers(const py::array& array) {
   return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
 }
 
-[[noreturn]] void refuse_type(const py::handle& argument, const char* name, const char* needed) {
-  const std::string given = py::isinstance<py::array>(argument)
-                                ? fmt::format("{} {}", std::string(py::str(argument.attr("dtype"))),
-                                              std::string(py::str(argument.attr("shape"))))
-                                : std::string(py::str(py::type::of(argument).attr("__name__")));
-  throw py::type_error(fmt::format("{} must be {}, and is {}", name, needed, given));
-}
-
 }  // namespace
+
+bool has_field(const py::array& array, const char* field) {
+  const py::object names = array.dtype().attr("names");
+  return !names.is_none() && names.contains(field);
+}
 
 template <int D>
 Cell_table cell_table_of(const Snapshot<D>& snapshot, std::span<const Half_facet> facets) {
@@ -197,33 +189,37 @@ py::array to_array(const Cell_table& table) {
 }
 
 Named_cells::Named_cells(const py::handle& argument, const char* name) : name_(name) {
-  const py::array array = py::array::ensure(argument);
-  if (array && has_field(array, "cell")) {
+  const py::array array = as_array(argument);
+  if (has_field(array, "cell")) {
     cells_ = integers(array.attr("__getitem__")("cell"));
     std::tie(points_, width_) = points_in(array);
-  } else if (array && is_of_integers(array) && array.ndim() <= 1) {
+  } else if (is_of_integers(array) && array.ndim() <= 1) {
     cells_ = integers(array);
-  } else if (!(array && array.ndim() == 1 && array.size() == 0)) {
-    refuse_type(argument, name, "an integer array (N,), or rows of cells()");
+  } else if (is_of_integers(array)) {
+    refuse_shape(name, shape_text(array), "(N,)");
+  } else if (array.ndim() != 1 || array.size() != 0) {
+    refuse_type(name, "integers (N,), or rows of cells()", argument);
   }
 }
 
 Named_facets::Named_facets(const py::handle& argument, const char* name) : name_(name) {
-  const py::array array = py::array::ensure(argument);
-  if (array && has_field(array, "cell") && has_field(array, "facet")) {
+  const py::array array = as_array(argument);
+  if (has_field(array, "cell") && has_field(array, "facet")) {
     cells_ = integers(array.attr("__getitem__")("cell"));
     facets_ = integers(array.attr("__getitem__")("facet"));
     std::tie(points_, width_) = points_in(array);
-  } else if (array && is_of_integers(array) && (array.ndim() == 1 || array.ndim() == 2) &&
+  } else if (is_of_integers(array) && (array.ndim() == 1 || array.ndim() == 2) &&
              array.shape(array.ndim() - 1) == 2) {
     const std::vector<std::int64_t> all = integers(array);
     for (std::size_t i = 0; i < all.size(); i += 2) {
       cells_.push_back(all[i]);
       facets_.push_back(all[i + 1]);
     }
-  } else if (!(array && array.size() == 0)) {
-    refuse_type(argument, name,
-                "an integer array (N, 2) of cells and numbers of facets in them, or rows of facets()");
+  } else if (is_of_integers(array)) {
+    refuse_shape(name, shape_text(array), "(N, 2)");
+  } else if (array.size() != 0) {
+    refuse_type(name, "integers (N, 2) of cells and numbers of facets in them, or rows of facets()",
+                argument);
   }
 }
 
@@ -239,8 +235,8 @@ Half_facet Named_facets::find(const Snapshot<D>& snapshot, std::size_t row) cons
   const std::int64_t facet = facets_[row];
   const std::size_t count = snapshot.facet_count(cell);
   if (facet < 0 || static_cast<std::uint64_t>(facet) >= count)
-    throw py::value_error(fmt::format("{}[{}]: cell {} has no facet {}, but {}, numbered from 0", name_, row,
-                                      cells_[row], facet, count));
+    throw Row_error(fmt::format("{}[{}]: cell {} has no facet {}, but {}, numbered from 0", name_, row,
+                                cells_[row], facet, count));
   const Half_facet found = snapshot.half_facet(cell, static_cast<std::size_t>(facet));
   return has_points(points_, width_, row, snapshot.loop(found)) ? found : Half_facet::none;
 }

@@ -30,6 +30,8 @@ Cell_table cell_table_of(const Snapshot<D>& snapshot, std::span<const Cell> cell
 template <int D>
 Selection<D> all_of(const Snapshot<D>& snapshot);
 
+bool has_field(const py::array& array, const char* field);
+
 /// A structured array.
 py::array to_array(const Cell_table& table);
 

@@ -16,24 +16,11 @@
 namespace cellwalk::python {
 namespace {
 
-template <int D>
-using Coordinates = std::array<double, D>;
-
-/// \throw TypeError unless it is a sequence of D numbers
-template <int D>
-Point<D> point_of(const py::object& given, const char* name) {
-  try {
-    return given.cast<Coordinates<D>>();
-  } catch (const py::cast_error&) {
-    throw py::type_error(fmt::format("{} must be a sequence of {} numbers", name, D));
-  }
-}
-
 /// \throw UsageError for cells that were replaced
 template <int D, class Names>
 auto find_one(const Snapshot<D>& snapshot, const Names& names, const char* name) {
   if (names.size() != 1)
-    throw py::value_error(fmt::format("{} names {} of them: give one", name, names.size()));
+    throw Error(Error_code::input, fmt::format("{} names {} of them: give one", name, names.size()));
   const auto found = names.find(snapshot, 0);
   if (found == std::remove_const_t<decltype(found)>::none)
     throw Error(Error_code::usage, fmt::format("{} was replaced by others: list them again", name));
@@ -52,12 +39,10 @@ Blade<D> blade_of(const py::object& blade, const py::object& pieces, const py::o
       return swept_blade(points, point_of<D>(sweep, "sweep") - Point<D>{});
   }
   if (pieces.is_none()) return blade_along<D>(points);
-  const Index_table table = indices_of(pieces, "pieces", points.size());
-  if (table.columns != D)
-    throw py::value_error(fmt::format("pieces has {} columns: a piece has {} corners", table.columns, D));
+  const Index_table table = indices_of(pieces, "pieces", {D, D}, points.size());
   Blade<D> result;
   result.points.assign(points.begin(), points.end());
-  for (std::size_t i = 0; i < table.rows; ++i)
+  for (std::size_t i = 0; i < table.size(); ++i)
     std::copy_n(table.row(i).begin(), D, result.pieces.emplace_back().begin());
   return result;
 }
@@ -237,7 +222,7 @@ Replaced Edits::split_vertex(std::uint32_t vertex, const py::object& cells, cons
 Relax_report Edits::relax(const py::object& points, const Relax_options& options) {
   return with_session([&](auto& session) {
     const std::vector<std::uint32_t> numbers =
-        numbers_of(points, "points", session.snapshot().points().size());
+        numbers_of(points, "points", session.snapshot().points().size(), "points");
     const py::gil_scoped_release released;
     return session.reshaping().relax(numbers, options);
   });

@@ -111,6 +111,7 @@ class Edits {
                double snap);
 
   py::dict counts();
+  bool is_open() const { return !std::holds_alternative<std::monostate>(session_); }
 
  private:
   /// Calls work(session) for the session that this thread has open.

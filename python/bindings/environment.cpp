@@ -2,6 +2,7 @@
 // Environments: from files, recipes and arrays; their content; queries of points and edges without known
 // cells.
 #include <cellwalk/environment/compiled.h>
+#include <cellwalk/internal/io/vtu.h>
 #include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/internal/loading/generators.h>
 #include <cellwalk/internal/loading/report.h>
@@ -12,8 +13,12 @@
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "bind_edits.h"
 #include "make_environment.h"
+#include "mesh_arrays.h"
 #include "module.h"
 #include "motions.h"
 #include "options.h"
@@ -91,7 +96,7 @@ Motions walk_points(const Shared_world& self, const py::object& starts, const py
   return std::visit(
       [&]<int D>(const World<D>&) {
         const auto from = points_of<D>(starts, "starts"), to = points_of<D>(targets, "targets");
-        need_equal(to.size(), "targets", from.size(), "starts");
+        need_rows(to, "targets", from.size(), "starts");
         const Radii radii(radius, from.size(), "starts");
         if (!radii.are_all_0() && method.kernel != Kernel_choice::exact)
           throw Error(Error_code::usage, "a radius needs kernel=\"exact\": distances are exact only");
@@ -120,8 +125,8 @@ Motions sweep_edges(const Shared_world& self, const py::object& p, const py::obj
       [&]<int D>(const World<D>&) {
         const auto from = points_of<D>(p, "p"), to = points_of<D>(targets, "targets"),
                    other = points_of<D>(q, "q");
-        need_equal(to.size(), "targets", from.size(), "p");
-        need_equal(other.size(), "q", from.size(), "p");
+        need_rows(to, "targets", from.size(), "p");
+        need_rows(other, "q", from.size(), "p");
         const Radii radii(radius, from.size(), "p");
         return run_questions<D>(self.world, from.size(), threads,
                                 [&](const Snapshot<D>& snapshot, const Locator<D>& locator, std::size_t row,
@@ -166,8 +171,47 @@ std::size_t wall_count(const Snapshot<D>& snapshot) {
   return count;
 }
 
+/// The cells, then the walls as polygons or lines.
+template <int D>
+io::Vtu_grid for_viewers(const Cell_soup<D>& soup) {
+  io::Vtu_grid grid = io::vtu_of_cells(soup);
+  const io::Vtu_grid walls = io::vtu_of_walls(soup);
+  std::vector<std::int64_t> cells = std::get<std::vector<std::int64_t>>(grid.cell_data[0].values);
+  std::vector<std::int64_t> solid = std::get<std::vector<std::int64_t>>(grid.cell_data[1].values);
+  std::vector<std::int64_t> is_wall(grid.cell_count(), 0);
+  const auto& of_walls = std::get<std::vector<std::int64_t>>(walls.cell_data[0].values);
+  auto corner = walls.connectivity.begin();
+  for (std::size_t i = 0; i < walls.cell_count(); ++i) {
+    const auto end = walls.connectivity.begin() + walls.offsets[i];
+    grid.add_cell(static_cast<io::Vtu_cell>(walls.types[i]), std::vector<std::uint32_t>(corner, end));
+    corner = end;
+    cells.push_back(of_walls[i]);
+    solid.push_back(0);
+    is_wall.push_back(1);
+  }
+  grid.cell_data = {
+      {"cell", 1, std::move(cells)}, {"solid", 1, std::move(solid)}, {"wall", 1, std::move(is_wall)}};
+  return grid;
+}
+
+void save_for_viewers(const Shared_world& self, const std::string& name) {
+  std::visit(
+      [&]<int D>(const World<D>& world) {
+        const typename World<D>::Looking looking(world);
+        io::write_vtu(name, for_viewers(looking.soup()));
+      },
+      *self.world);
+}
+
 void save(const Shared_world& self, const py::object& path) {
-  const std::string name = py::str(path);
+  const std::string name = path_of(path);
+  const std::string extension = std::filesystem::path(name).extension();
+  if (extension == ".vtu") return save_for_viewers(self, name);
+  if (extension != ".ovm" && !is_compiled_name(name))
+    throw Error(Error_code::usage,
+                fmt::format("{}: environments are saved as OpenVolumeMesh (*.ovm), compiled "
+                            "(*.cellwalk), or for viewers as VTU (*.vtu)",
+                            name));
   const std::vector<std::byte> bytes = compiled_bytes(self);
   const py::gil_scoped_release released;
   Any_compiled_environment copy = open_compiled_copy(bytes);  // without the memory that edits left unused
@@ -201,13 +245,20 @@ void bind_environment(py::module_& module) {
       .def_readonly(
           "sides", &Locations::sides,
           "uint32 (N,): the number of sides of walls with free space at the point; 1 off membranes.")
-      .def("__len__", [](const Locations& self) { return self.status.size(); });
+      .def("__len__", [](const Locations& self) { return self.status.size(); })
+      .def("__repr__", [](const Locations& self) {
+        const auto* const status = self.status.data();
+        return fmt::format("<cellwalk.Locations of {} rows, {} free>", self.status.size(),
+                           std::count(status, status + self.status.size(),
+                                      static_cast<std::uint8_t>(Location_status::free)));
+      });
 
   Environment_class environment(module, "Environment",
                                 "A certified complex of convex cells, some of whose facets are walls. "
                                 "Threads can share it: only reshape() and editing() change it, and wait "
                                 "until they are alone.");
   bind_makers(environment);
+  bind_mesh_arrays(module, environment);
   bind_reshape(module, environment);
   bind_edits(module, environment);
   bind_pickles(environment);
@@ -234,10 +285,14 @@ void bind_environment(py::module_& module) {
           "report", [](const Shared_world& self) { return from_json(self.report); },
           "The report of reading, meshing and changes when the environment was made, as written by `cellwalk "
           "import --json`.")
-      .def("save", save, py::arg("path"),
-           "Writes a file that every command of the program reads: a compiled environment, which is mapped "
-           "into "
-           "memory instead of parsed, if it is named *.cellwalk, or else an .ovm file.")
+      .def(
+          "save", save, py::arg("path"),
+          "Writes a file. *.ovm, or *.cellwalk, which is mapped into memory instead of parsed: all of it, "
+          "for "
+          "load() and every command of the program. *.vtu, for viewers such as ParaView: the cells, then the "
+          "walls as polygons, in 2D lines, with the data `cell`, `solid` and `wall`. Read again, that is "
+          "cells "
+          "only.")
       .def(
           "locate",
           [](const Shared_world& self, const py::object& points, int threads) {

@@ -10,13 +10,18 @@ namespace cellwalk::python {
 namespace {
 
 template <class Owner>
-void list_all(const std::shared_ptr<Any_world>& world, const py::iterable& given, const char* name,
+void list_all(const std::shared_ptr<Any_world>& world, const py::object& given, const char* name,
               const char* type, std::vector<py::object>& objects, std::vector<Owner*>& owners) {
+  const auto type_name = [](const py::handle& object) {
+    return std::string(py::str(py::type::of(object).attr("__name__")));
+  };
+  if (!py::isinstance<py::iterable>(given))
+    throw py::type_error(fmt::format("{} is {}: a list of {} is needed", name, type_name(given), type));
   for (const py::handle item : given) {
     const std::size_t i = owners.size();
     if (!py::isinstance<Owner>(item))
-      throw py::type_error(fmt::format("{}[{}] is {}: a list of {} is needed", name, i,
-                                       std::string(py::str(py::type::of(item).attr("__name__"))), type));
+      throw py::type_error(
+          fmt::format("{}[{}] is {}: a list of {} is needed", name, i, type_name(item), type));
     Owner* const owner = item.cast<Owner*>();
     if (owner->world() != world)
       throw Error(Error_code::usage,
@@ -31,8 +36,8 @@ void list_all(const std::shared_ptr<Any_world>& world, const py::iterable& given
 
 }  // namespace
 
-Listed listed_of(const std::shared_ptr<Any_world>& world, const py::iterable& bodies,
-                 const py::iterable& particles) {
+Listed listed_of(const std::shared_ptr<Any_world>& world, const py::object& bodies,
+                 const py::object& particles) {
   Listed listed;
   list_all(world, bodies, "bodies", "Body", listed.objects, listed.bodies);
   list_all(world, particles, "particles", "Particles", listed.objects, listed.particles);

@@ -27,8 +27,8 @@ struct Listed {
 
 /// \throw TypeError for objects that are no bodies, or no particles, UsageError for those that are listed
 ///        twice, or lie in another environment
-Listed listed_of(const std::shared_ptr<Any_world>& world, const py::iterable& bodies,
-                 const py::iterable& particles);
+Listed listed_of(const std::shared_ptr<Any_world>& world, const py::object& bodies,
+                 const py::object& particles);
 
 /// Particles for a Reshaping, which needs all of them in free space: those in no cell are left out. In the
 /// end all are as the walls left them, and have the new epoch.

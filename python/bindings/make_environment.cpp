@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "cell_arrays.h"
 
 namespace cellwalk::python {
 namespace {
@@ -34,61 +35,78 @@ Build_options to_build_options(const std::string& duplicates, bool split, bool s
 }
 
 /// Builds without the interpreter, and reports the changes.
+/// \param notes of what was left out before
 template <int D>
-Shared_world build(Cell_soup<D> soup, const Build_options& options) {
+Shared_world build(Cell_soup<D> soup, const Build_options& options, std::vector<std::string> notes = {}) {
   Build_report built;
   const py::gil_scoped_release released;
   Environment<D> environment = Environment<D>::build(std::move(soup), options, &built);
-  const nlohmann::ordered_json report{{"changed", to_json(built)},
-                                      {"certificate", to_json(built.certificate, D)}};
+  nlohmann::ordered_json report;
+  if (!notes.empty()) report["read"] = {{"notes", std::move(notes)}};
+  report["changed"] = to_json(built);
+  report["certificate"] = to_json(built.certificate, D);
   return share(std::move(environment), built.certificate, report.dump(), Groups<D>{});
 }
 
-void add_cell(Cell_soup<2>& soup, std::span<const std::uint32_t> v) { add_polygon(soup, v); }
-
-void add_cell(Cell_soup<3>& soup, std::span<const std::uint32_t> v) {
-  switch (v.size()) {
-    case 4:
-      add_tetrahedron(soup, v[0], v[1], v[2], v[3]);
-      break;
-    case 5:
-      add_pyramid(soup, {v[0], v[1], v[2], v[3], v[4]});
-      break;
-    case 6:
-      add_prism(soup, {v[0], v[1], v[2], v[3], v[4], v[5]});
-      break;
-    default:
-      add_hexahedron(soup, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]});
+/// The points of a plane that are given in space.
+/// \throw Error(input) unless their third coordinates are 0
+std::vector<Point<2>> flat(const Points<3>& points) {
+  std::vector<Point<2>> result;
+  result.reserve(points.size());
+  for (const Point<3>& x : points) {
+    if (x[2] != 0)
+      throw Error(
+          Error_code::input,
+          fmt::format("points[{}] has z = {}, and all cells are polygons: a surface is no environment; "
+                      "write it to a file, and import_mesh() fills it",
+                      result.size(), x[2]));
+    result.push_back({x[0], x[1]});
   }
+  return result;
 }
 
 template <int D>
-Shared_world of_arrays(const py::object& points, const py::object& cells, const Build_options& options) {
-  const auto given = points_of<D>(points, "points");
-  const Index_table table = indices_of(cells, "cells", given.size());
-  const bool is_known =
-      D == 2 ? table.columns >= 3 : (table.columns >= 4 && table.columns <= 6) || table.columns == 8;
-  if (!is_known)
-    throw py::value_error(fmt::format("cells has {} columns: {}", table.columns,
-                                      D == 2 ? "2D cells are polygons of at least 3 points"
-                                             : "3D cells are tetrahedra (4), pyramids (5), prisms (6) "
-                                               "or hexahedra (8), in the order of VTK"));
-  Cell_soup<D> soup;
-  soup.points.assign(given.begin(), given.end());
-  for (std::size_t i = 0; i < table.rows; ++i) add_cell(soup, table.row(i));
-  return build(std::move(soup), options);
+void set_solid(Cell_soup<D>& soup, const py::object& solid) {
+  const py::array given = as_array(solid);
+  if (given.dtype().kind() != 'b') refuse_type("solid", "a boolean array", solid);
+  if (given.ndim() != 1 || static_cast<std::size_t>(given.size()) != soup.cell_count())
+    refuse_shape("solid", shape_text(given),
+                 fmt::format("({},), one for each of the cells,", soup.cell_count()));
+  const auto values = py::array_t<bool, py::array::c_style>(given);
+  std::copy_n(values.data(), soup.cell_count(), soup.solid.begin());
 }
 
-Shared_world from_arrays(const py::object& points, const py::object& cells, bool split, bool simplicial,
+template <int D>
+Shared_world of_cells(std::vector<Point<D>> points, const Given_cells& given, const py::object& solid,
+                      const py::object& walls, const Build_options& options) {
+  Cell_soup<D> soup;
+  soup.points = std::move(points);
+  std::vector<std::string> notes;
+  for (const auto& [name, count] : add_cells(soup, given))
+    notes.push_back(fmt::format("{} of type {} are no cells in {}D: left out", count, name, D));
+  if (!solid.is_none()) set_solid(soup, solid);
+  if (!walls.is_none()) add_walls(soup, walls);
+  return build(std::move(soup), options, std::move(notes));
+}
+
+Shared_world from_arrays(const py::object& points, const py::object& cells, const py::object& celltypes,
+                         const py::object& solid, const py::object& walls, bool split, bool simplicial,
                          const std::string& duplicates) {
   const Build_options options = to_build_options(duplicates, split, simplicial);
-  const bool is_planar = py::isinstance<py::array>(points) && points.attr("ndim").cast<int>() == 2 &&
-                         points.cast<py::array>().shape(1) == 2;
-  return is_planar ? of_arrays<2>(points, cells, options) : of_arrays<3>(points, cells, options);
+  const py::array array = as_array(points);
+  if (array.ndim() == 2 && array.shape(1) == 2) {
+    const Points<2> at(array, "points");
+    return of_cells<2>({at.begin(), at.end()}, cells_of(cells, celltypes, "cells", "polygon", at.size()),
+                       solid, walls, options);
+  }
+  const Points<3> at(array, "points");
+  const Given_cells given = cells_of(cells, celltypes, "cells", "", at.size());
+  return given.dimension() == 2 ? of_cells<2>(flat(at), given, solid, walls, options)
+                                : of_cells<3>({at.begin(), at.end()}, given, solid, walls, options);
 }
 
 Shared_world load(const py::object& path, const std::string& duplicates) {
-  const std::string name = py::str(path);
+  const std::string name = path_of(path);
   const Build_options options{.duplicates = to_duplicates(duplicates), .split = false, .keep_map = false};
   const py::gil_scoped_release released;
   Loaded_environment loaded = load_environment(name, options);
@@ -104,11 +122,12 @@ void set_inside(const py::object& inside, Repair_options& repair) {
     repair.is_solid = choose<bool>(inside.cast<std::string>(), "inside", {{"auto", false}, {"solid", true}});
     return;
   }
-  const auto points = inside.cast<py::sequence>();
-  if (py::len(points) != 0 && py::isinstance<py::sequence>(points[0]))
-    repair.inside = inside.cast<std::vector<Point<3>>>();
-  else
-    repair.inside = {inside.cast<Point<3>>()};
+  if (as_array(inside).ndim() == 1) {
+    repair.inside = {point_of<3>(inside, "inside")};
+    return;
+  }
+  const Points<3> points(inside, "inside");
+  repair.inside.assign(points.begin(), points.end());
 }
 
 /// "exact", "off", or a part of the diagonal.
@@ -123,11 +142,11 @@ Shared_world import_mesh(const py::object& path, const std::vector<py::object>& 
                          std::optional<double> quality, double cell_size, double distance,
                          bool keep_obstacles, double tissue, double time_limit, bool strict,
                          const py::object& inside, const std::variant<std::string, double>& conform) {
-  const std::string name = py::str(path);
+  const std::string name = path_of(path);
   Import_options options;
   options.conform = to_conform(conform);
   options.tissue = tissue;
-  for (const py::object& obstacle : obstacles) options.obstacles.push_back(py::str(obstacle));
+  for (const py::object& obstacle : obstacles) options.obstacles.push_back(path_of(obstacle));
   options.mesher = {choose<Mesher>(mesher, "mesher", {{"tetgen", Mesher::tetgen}, {"mesh3", Mesher::mesh3}}),
                     quality, cell_size, distance, keep_obstacles};
   options.mesher.time_limit = time_limit;
@@ -147,10 +166,14 @@ Shared_world import_mesh(const py::object& path, const std::vector<py::object>& 
 /// Numbers, sequences of numbers and truth values, as generators take them.
 Shared_world generate_environment(const std::string& kind, bool simplicial, const py::kwargs& given) {
   Generator_values values;
-  for (const auto& [name, value] : given)
-    values[std::string(py::str(name))] = py::isinstance<py::sequence>(value)
-                                             ? value.cast<std::vector<double>>()
-                                             : std::vector<double>{value.cast<double>()};
+  for (const auto& [key, value] : given) {
+    const std::string name = py::str(key);
+    py::array array = as_array(value);
+    if (array.dtype().kind() == 'b') array = array.attr("astype")("float64");
+    if (array.ndim() == 0) array = array.attr("reshape")(1);
+    const Number_rows numbers(array, name.c_str(), 0);
+    values[name].assign(numbers.data(), numbers.data() + numbers.size());
+  }
   Any_soup soup = generate(kind, values);
   Build_options options = build_of_generated;
   options.simplicial = simplicial;
@@ -161,14 +184,26 @@ Shared_world generate_environment(const std::string& kind, bool simplicial, cons
 
 void bind_makers(Environment_class& environment) {
   environment
-      .def(
-          py::init(&from_arrays), py::arg("points"), py::arg("cells"), py::kw_only(), py::arg("split") = true,
-          py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
-          "Makes an environment from arrays: points float64 (N, 3) with cells integer (M, 4), (M, 5), (M, 6) "
-          "or (M, 8) "
-          "(tetrahedra, pyramids, prisms, hexahedra, in the order of VTK), or points (N, 2) with polygons "
-          "(M, k), "
-          "counterclockwise. Its boundary facets are walls.\n\n"
+      .def_static(
+          "from_arrays", &from_arrays, py::arg("points"), py::arg("cells"), py::arg("celltypes") = py::none(),
+          py::kw_only(), py::arg("solid") = py::none(), py::arg("walls") = py::none(),
+          py::arg("split") = true, py::arg("simplicial") = false, py::arg("duplicates") = "refuse",
+          "Makes an environment of arrays: points (N, 3), or (N, 2) in the plane, and cells. Facets on its "
+          "boundary, and between free and solid cells, are walls.\n\n"
+          "cells: integers (M, k): tetrahedra (k = 4), pyramids (5), wedges (6) or hexahedra (8), in the "
+          "plane "
+          "polygons, counterclockwise, that may end with -1. Or blocks of them by type, as meshio has them: "
+          "a "
+          "list of pairs of a type, such as \"tetra\", and an array, or a dictionary; also by the numbers of "
+          "VTK, as PyVista has them. Or, with celltypes, the flat array of VTK and PyVista. The order of "
+          "corners "
+          "is that of meshio or VTK, which differ for wedges. Polygons in space with z = 0 throughout are "
+          "cells "
+          "of the plane; beside other cells, those of lower dimension are left out, with a note in "
+          "`report`.\n"
+          "celltypes: integers (M,): the types, by the numbers of VTK.\n"
+          "solid: bool (M,): the cells that are not free.\n"
+          "walls: facets that are walls too, in the forms of cells: corners (K, k), that may end with -1.\n"
           "split: cells that are not exactly convex are split; otherwise they are refused.\n"
           "simplicial: all cells are split into tetrahedra, or triangles, as walls need that move: see "
           "reshape().\n"

@@ -9,7 +9,7 @@
 
 namespace cellwalk::python {
 
-/// Adds the constructor from arrays, and load, import_mesh and generate.
+/// Adds from_arrays, load, import_mesh and generate.
 void bind_makers(Environment_class& environment);
 
 }  // namespace cellwalk::python

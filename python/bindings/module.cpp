@@ -16,14 +16,19 @@
 #include <utility>
 #include <vector>
 
+#include "arrays.h"
+#include "signatures.h"
+
 namespace cellwalk::python {
 namespace {
 
 namespace py = pybind11;
 
+constexpr std::size_t row_error = 6;  ///< after the codes
+
 /// The class of cellwalk._errors for each code; never freed, since exceptions may be raised until the
 /// interpreter ends.
-const py::object& error_class(Error_code code) {
+const py::object& error_class(std::size_t code) {
   static const auto* const classes = [] {
     const py::module_ errors = py::module_::import("cellwalk._errors");
     return new std::vector<py::object>{errors.attr("Error"),
@@ -31,9 +36,10 @@ const py::object& error_class(Error_code code) {
                                        errors.attr("UsageError"),
                                        errors.attr("InputError"),
                                        errors.attr("NotCertifiedError"),
-                                       errors.attr("OutsideError")};
+                                       errors.attr("OutsideError"),
+                                       errors.attr("RowError")};
   }();
-  return (*classes)[static_cast<std::size_t>(code)];
+  return (*classes)[code];
 }
 
 py::dict build_features() {
@@ -79,13 +85,15 @@ PYBIND11_MODULE(_cellwalk, module) {
   py::list names;
   for (const char* name : motion_status_names) names.append(name);
   module.attr("status_names") = py::tuple(names);
-  error_class(Error_code::other);
+  error_class(0);
   refuse_objects_of_the_base();
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(std::move(thrown));
+    } catch (const Row_error& error) {
+      PyErr_SetString(error_class(row_error).ptr(), error.what());
     } catch (const Error& error) {
-      PyErr_SetString(error_class(error.code()).ptr(), error.what());
+      PyErr_SetString(error_class(static_cast<std::size_t>(error.code())).ptr(), error.what());
     }
   });
   bind_motions(module);
@@ -96,6 +104,7 @@ PYBIND11_MODULE(_cellwalk, module) {
   module.def("build_features", build_features,
              "The optional parts of this build by name, and whether it has them.");
   refuse_objects_without_value(module);
+  give_signatures(module);
 }
 
 }  // namespace cellwalk::python

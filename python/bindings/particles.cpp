@@ -109,11 +109,10 @@ Particles Particles::of_state(const py::tuple& state) {
         const auto at = points_of<D>(state[1], "positions");
         const auto numbers = state[2].cast<py::array_t<std::int32_t>>();
         const auto places = state[3].cast<py::array_t<std::uint16_t>>();
-        if (numbers.ndim() != 1 || places.ndim() != 2 || places.shape(1) != 2)
-          throw py::value_error("this pickle of particles is damaged");
         const auto n = static_cast<py::ssize_t>(at.size());
-        need_equal(static_cast<std::size_t>(numbers.shape(0)), "cells", at.size(), "positions");
-        need_equal(static_cast<std::size_t>(places.shape(0)), "places", at.size(), "positions");
+        if (numbers.ndim() != 1 || places.ndim() != 2 || places.shape(1) != 2 || numbers.shape(0) != n ||
+            places.shape(0) != n)
+          throw py::value_error("this pickle of particles is damaged");
         const auto number = numbers.template unchecked<1>();
         const auto place = places.template unchecked<2>();
         auto& particles = made.particles_.emplace<std::vector<Particle<D>>>(at.size());
@@ -138,14 +137,30 @@ Particles Particles::of_state(const py::tuple& state) {
   return made;
 }
 
-Motions Particles::move(const py::object& targets, const std::string& at_contact, int threads) {
+/// All particles by their numbers, as an array of rows would name them.
+struct All_rows {
+  std::size_t operator[](std::size_t row) const { return row; }
+};
+
+Motions Particles::move(const py::object& targets, const py::object& rows, const std::string& at_contact,
+                        int threads) {
   check_threads(threads);
   const bool stops = choose<bool>(at_contact, "at_contact", {{"stay", false}, {"stop", true}});
   return std::visit(
       [&]<int D>(std::vector<Particle<D>>& particles) {
         const auto to = points_of<D>(targets, "targets");
-        need_equal(to.size(), "targets", particles.size(), "the particles");
-        return stops ? move_all<true>(particles, to, threads) : move_all<false>(particles, to, threads);
+        const auto move_those = [&](const auto& moving) {
+          return stops ? move_rows<true>(particles, to, moving, threads)
+                       : move_rows<false>(particles, to, moving, threads);
+        };
+        if (rows.is_none()) {
+          need_rows(to, "targets", particles.size(), "the particles");
+          return move_those(All_rows{});
+        }
+        const std::vector<std::uint32_t> chosen =
+            distinct_numbers_of(rows, "rows", particles.size(), "particles");
+        need_rows(to, "targets", chosen.size(), "rows");
+        return move_those(chosen.data());
       },
       particles_);
 }
@@ -164,18 +179,18 @@ void Particles::locate_again(int threads) {
       particles_);
 }
 
-template <bool stops, int D>
-Motions Particles::move_all(std::vector<Particle<D>>& particles, std::span<const Point<D>> targets,
-                            int threads) {
+template <bool stops, int D, class Rows>
+Motions Particles::move_rows(std::vector<Particle<D>>& particles, const Points<D>& targets, const Rows& rows,
+                             int threads) {
   return run_batch<Walk_counts, D>(
-      environment_->world, moving_.get(), particles.size(), threads,
+      environment_->world, moving_.get(), targets.size(), threads,
       [&](const typename World<D>::Reading& reading) {
         check_epoch(reading.snapshot());
-        return [&snapshot = reading.snapshot(), from = particles.data(), to = targets.data()](
+        return [&snapshot = reading.snapshot(), from = particles.data(), to = targets.data(), rows](
                    Motion_rows<D> out, Chunk<D, Walk_counts>& chunk, std::size_t begin, std::size_t end) {
           Walk_counts counts;
           for (std::size_t row = begin; row < end; ++row) {
-            Particle<D>& particle = from[row];
+            Particle<D>& particle = from[rows[row]];
             const Point<D>& target = to[row];
             if (particle.cell == Cell::none || !is_usable(target)) {
               out.fail(row, particle.cell == Cell::none ? Motion_status::outside : Motion_status::invalid);
@@ -202,18 +217,24 @@ void bind_particles(py::module_& module) {
       module, "Particles",
       "Points that remember their cells: a small move costs a few nanoseconds, for any size of the "
       "environment. Their positions always lie in their cells, in free space.")
-      .def(py::init<std::shared_ptr<Shared_world>, const py::object&, int>(), py::arg("environment"),
-           py::arg("points"), py::kw_only(), py::arg("threads") = 0,
+      .def(py::init<std::shared_ptr<Shared_world>, const py::object&, int>(),
+           py::arg("environment").none(false), py::arg("points"), py::kw_only(), py::arg("threads") = 0,
            "Locates the points (N, dimension). Points outside free space get no cell, and do not move.")
       .def("__len__", &Particles::size)
+      .def_property_readonly(
+          "environment",
+          [](const Particles& self) { return std::const_pointer_cast<Shared_world>(self.environment()); },
+          "The environment in which they lie.")
       .def_property_readonly(
           "positions", [](const py::object& self) { return self.cast<const Particles&>().positions(self); },
           "float64 (N, dimension): their positions, as a read-only view that changes as they move.")
       .def_property_readonly("cells", &Particles::cells,
                              "int32 (N,): their cells, numbered as in the file; -1 for none.")
-      .def("move", &Particles::move, py::arg("targets"), py::kw_only(), py::arg("at_contact") = "stay",
-           py::arg("threads") = 0,
+      .def("move", &Particles::move, py::arg("targets"), py::kw_only(), py::arg("rows") = py::none(),
+           py::arg("at_contact") = "stay", py::arg("threads") = 0,
            "Moves each particle to its target, or reports the wall that blocks it. Walls may be touched.\n\n"
+           "rows: only these particles move, integers or a mask; `targets` and the result have a row for "
+           "each.\n"
            "at_contact: \"stay\": a blocked particle stays in place; \"stop\": it moves up to the wall, to a "
            "position to which its whole path is free.\n"
            "threads: 0: all cores. The results do not depend on it.")

@@ -28,7 +28,8 @@ class Particles {
   std::size_t size() const;
   py::array positions(const py::object& self) const;
   py::array_t<std::int32_t> cells() const;
-  Motions move(const py::object& targets, const std::string& at_contact, int threads);
+  /// \param rows the particles that move, or None for all
+  Motions move(const py::object& targets, const py::object& rows, const std::string& at_contact, int threads);
   /// Finds their cells anew where they are. One that is on a wall keeps its side if its cell still holds it.
   void locate_again(int threads);
 
@@ -60,8 +61,9 @@ class Particles {
   }
 
  private:
-  template <bool stops, int D>
-  Motions move_all(std::vector<Particle<D>>& particles, std::span<const Point<D>> targets, int threads);
+  template <bool stops, int D, class Rows>
+  Motions move_rows(std::vector<Particle<D>>& particles, const Points<D>& targets, const Rows& rows,
+                    int threads);
 
   explicit Particles(Held_world environment) : environment_(std::move(environment)) {}
 

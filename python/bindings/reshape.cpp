@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -68,27 +67,20 @@ Reshape_request to_request(const Reshape_words& words) {
 }
 
 /// The moves as they are given.
-/// \throw TypeError for arrays of another type or shape, ValueError for other numbers of rows, a point that
-///        does not exist or has two rows, and a target that is not finite
+/// \throw TypeError for arrays of another type, InputError for another shape, a point that does not exist or
+///        has two rows, and a target that is not finite
 template <int D>
 std::vector<Vertex_move<D>> moves_of(const py::object& points, const py::object& targets,
                                      std::size_t point_count) {
   const auto to = points_of<D>(targets, "targets");
-  const std::vector<std::uint32_t> numbers = numbers_of(points, "points", point_count);
-  need_equal(to.size(), "targets", numbers.size(), "points");
+  const std::vector<std::uint32_t> numbers = distinct_numbers_of(points, "points", point_count, "points");
+  need_rows(to, "targets", numbers.size(), "points");
   std::vector<Vertex_move<D>> moves;
   moves.reserve(to.size());
   for (std::size_t i = 0; i < to.size(); ++i) {
-    if (!is_usable(to[i])) throw py::value_error(fmt::format("targets[{}] is not finite", i));
+    if (!is_usable(to[i])) throw Error(Error_code::input, fmt::format("targets[{}] is not finite", i));
     moves.push_back({numbers[i], to[i]});
   }
-  std::vector<std::uint32_t> order(numbers.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t row) { return numbers[row]; });
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (const std::uint32_t first = order[k - 1], again = order[k]; numbers[first] == numbers[again])
-      throw py::value_error(fmt::format("points[{}] is {}, as points[{}] is: give each point once", again,
-                                        numbers[again], first));
   return moves;
 }
 
@@ -151,7 +143,7 @@ Wall_rows<D> work_off(World<D>& world, const Reshape_request& request,
 }
 
 Wall_moves reshape(const Shared_world& self, const py::object& points, const py::object& targets,
-                   const py::iterable& bodies, const py::iterable& particles, const Reshape_words& words) {
+                   const py::object& bodies, const py::object& particles, const Reshape_words& words) {
   const Reshape_request request = to_request(words);
   const Listed listed = listed_of(self.world, bodies, particles);
   return std::visit(
@@ -225,7 +217,7 @@ void bind_reshape(py::module_& module, Environment_class& environment) {
   environment.def(
       "reshape",
       [](const Shared_world& self, const py::object& points, const py::object& targets,
-         const py::iterable& bodies, const py::iterable& particles, const std::string& at_contact,
+         const py::object& bodies, const py::object& particles, const std::string& at_contact,
          int most_rounds, int most_pushes, const std::string& sweep, int most_contacts) {
         return reshape(self, points, targets, bodies, particles,
                        {at_contact, sweep, most_rounds, most_pushes, most_contacts});

@@ -107,7 +107,7 @@ auto with_points(const Shared_world& self, const py::object& origins, const py::
   return std::visit(
       [&]<int D>(const World<D>& world) {
         const auto from = points_of<D>(origins, "origins"), to = points_of<D>(ends, "ends");
-        need_equal(to.size(), "ends", from.size(), "origins");
+        need_rows(to, "ends", from.size(), "origins");
         return use(world, from.size(), [&](const auto& work) {
           const typename World<D>::Reading reading(world);
           const Tracing<D>& tracing = reading.tracing();
@@ -127,7 +127,7 @@ auto with_particles(Particles& self, const py::object& targets, const Bouncing& 
   return std::visit(
       [&]<int D>(const World<D>& world) {
         const auto to = points_of<D>(targets, "targets");
-        need_equal(to.size(), "targets", self.size(), "the particles");
+        need_rows(to, "targets", self.size(), "the particles");
         return use(world, to.size(), [&](const auto& work) {
           const typename World<D>::Reading reading(world, self.moving());
           self.check_epoch(reading.snapshot());

@@ -98,6 +98,7 @@ class World {
       if (!world.is_open_here()) lock_ = std::shared_lock(world.lock_);
     }
     const Snapshot<D>& snapshot() const { return world_.environment_.snapshot(); }
+    Cell_soup<D> soup() const { return world_.environment_.soup(); }
     /// The rest of the groups of the file after edits.
     Groups<D> groups() const { return world_.groups_.now(snapshot()); }
     /// The points for arrays. They are kept like the environment as long as points are not added.

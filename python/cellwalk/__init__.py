@@ -8,7 +8,9 @@
 >>> motions.contacts["time"], motions.contacts["normal"]
 (array([0.7]), array([[-1.,  0.,  0.]]))
 
-Points are C-contiguous float64 arrays of shape (N, 3) or (N, 2). They are read in place; other arrays raise a TypeError.
+Points are arrays of shape (N, 3) or (N, 2), or anything of which numpy.asarray() makes one. float64 arrays in C order are read in
+place; other numbers that float64 holds are copied first. Wrong shapes raise a ValueError, wrong types a TypeError, rows that do not
+exist an IndexError.
 Batches run without the interpreter lock, on `threads` threads; the results do not depend on their number. Any number of threads
 may ask one environment; Environment.reshape() moves its walls among what lies in it, Environment.editing() opens and closes facets
 and replaces cells, and both wait until they are alone.
@@ -21,6 +23,7 @@ from ._cellwalk import (
     Edits,
     Environment,
     Locations,
+    MeshArrays,
     Motions,
     Particles,
     RelaxReport,
@@ -33,7 +36,7 @@ from ._cellwalk import (
     draw,
 )
 from ._codes import Feature, MoveEnd, Place, Status
-from ._errors import Error, InputError, NotCertifiedError, OutsideError, UsageError
+from ._errors import Error, InputError, NotCertifiedError, OutsideError, RowError, UsageError
 
 __all__ = [
     "Body",
@@ -45,6 +48,7 @@ __all__ = [
     "Feature",
     "InputError",
     "Locations",
+    "MeshArrays",
     "Motions",
     "MoveEnd",
     "NotCertifiedError",
@@ -53,6 +57,7 @@ __all__ = [
     "Place",
     "RelaxReport",
     "Replacement",
+    "RowError",
     "Selection",
     "Status",
     "Traces",

@@ -5,13 +5,14 @@ import os
 import shutil
 import sys
 from pathlib import Path
+from typing import NoReturn, Optional
 
 HERE = Path(__file__).resolve().parent
 # In the package that pip makes, and in a build tree.
 PLACES = [HERE / "bin" / "cellwalk", HERE.parents[1] / "cellwalk"]
 
 
-def program():
+def program() -> Optional[str]:
     """The path of the program, or None."""
     for place in PLACES:
         if place.is_file() and os.access(place, os.X_OK):
@@ -19,7 +20,7 @@ def program():
     return shutil.which("cellwalk")
 
 
-def main():
+def main() -> NoReturn:
     found = program()
     if found is None:
         sys.exit("cellwalk: the program is not there: install the package cellwalk, or the module by pip")

@@ -20,6 +20,10 @@ class InputError(Error, ValueError):
     code = 3
 
 
+class RowError(InputError, IndexError):
+    """A row, vertex, point or cell that does not exist."""
+
+
 class NotCertifiedError(Error, ValueError):
     """Cells that cannot be certified; the message names the cell and the reason."""
 

@@ -69,7 +69,7 @@ class InABox(unittest.TestCase):
     def test_a_radius_is_checked(self):
         some = self.starts[:3]
         for radius, error in ((-1, ValueError), (numpy.nan, ValueError), (numpy.array([0.0, 1.0]), ValueError),
-                              (numpy.array([0, 1, 2]), TypeError), ("1", TypeError), (numpy.array([0.0, -1, 0]), ValueError)):
+                              (numpy.array([0, 1j, 2]), TypeError), ("1", TypeError), (numpy.array([0.0, -1, 0]), ValueError)):
             with self.assertRaises(error):
                 self.environment.walk(some, some, radius=radius)
         with self.assertRaisesRegex(cellwalk.UsageError, "kernel"):
@@ -152,7 +152,7 @@ class Edges(unittest.TestCase):
         points = numpy.array([[x, y] for y in range(4) for x in range(4)], dtype=float)
         cells = [[x + 4 * y, x + 1 + 4 * y, x + 5 + 4 * y, x + 4 + 4 * y] for y in range(3) for x in range(3)]
         del cells[4]
-        self.environment = cellwalk.Environment(points, numpy.array(cells))
+        self.environment = cellwalk.Environment.from_arrays(points, numpy.array(cells))
         # q stands left of the hole, p swings from below to above on its right, and back at its left.
         self.p = numpy.array([[2.5, 0.5], [0.5, 0.5], [2.0, 0.5]])
         self.t = numpy.array([[2.5, 2.5], [0.5, 2.5], [2.0, 0.875]])

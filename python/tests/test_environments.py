@@ -25,25 +25,25 @@ class FromArrays(unittest.TestCase):
             (numpy.array([[0, 1, 3, 2, 4]]), 1 / 3),
             (numpy.array([[0, 1, 2, 4, 5, 6]]), 1 / 2),
         ):
-            environment = cellwalk.Environment(CUBE, cells)
+            environment = cellwalk.Environment.from_arrays(CUBE, cells)
             self.assertAlmostEqual(environment.certificate["volume"], volume)
             self.assertEqual((environment.dimension, environment.cell_count), (3, 1))
-        plane = cellwalk.Environment(numpy.array([[0.0, 0], [1, 0], [0, 1]]), numpy.array([[0, 1, 2]], numpy.uint8))
+        plane = cellwalk.Environment.from_arrays(numpy.array([[0.0, 0], [1, 0], [0, 1]]), numpy.array([[0, 1, 2]], numpy.uint8))
         self.assertEqual((plane.dimension, plane.certificate["volume"]), (2, 0.5))
 
     def test_points_are_a_view(self):
-        environment = cellwalk.Environment(CUBE, HEXAHEDRON)
+        environment = cellwalk.Environment.from_arrays(CUBE, HEXAHEDRON)
         self.assertTrue((environment.points == CUBE).all())
         self.assertFalse(environment.points.flags.owndata or environment.points.flags.writeable)
 
     def test_what_is_split_is_reported(self):
         bent = CUBE.copy()
         bent[7] += 0.25
-        environment = cellwalk.Environment(bent, HEXAHEDRON)
+        environment = cellwalk.Environment.from_arrays(bent, HEXAHEDRON)
         self.assertEqual(environment.report["changed"]["cells_split"], 1)
         self.assertGreater(environment.cell_count, 1)
         with self.assertRaisesRegex(cellwalk.NotCertifiedError, "cell 0"):
-            cellwalk.Environment(bent, HEXAHEDRON, split=False)
+            cellwalk.Environment.from_arrays(bent, HEXAHEDRON, split=False)
 
     def test_cells_that_do_not_conform(self):
         # A hexahedron beside four smaller ones.
@@ -65,8 +65,8 @@ class FromArrays(unittest.TestCase):
             with self.assertRaisesRegex(
                 cellwalk.NotCertifiedError, r"cells 0 and 1 share a part of a plane at \(2\.0.*the first of 4 such pairs"
             ):
-                cellwalk.Environment(points, cells, duplicates=duplicates)
-        kept = cellwalk.Environment(points, cells, duplicates="keep")
+                cellwalk.Environment.from_arrays(points, cells, duplicates=duplicates)
+        kept = cellwalk.Environment.from_arrays(points, cells, duplicates="keep")
         self.assertEqual(kept.certificate["components"], 2)
         found = kept.report["changed"]["facing_walls"]
         self.assertEqual(found["overlapping"]["pairs"], 4)
@@ -74,15 +74,15 @@ class FromArrays(unittest.TestCase):
         self.assertEqual(found["near"]["pairs"], 0)
 
     def test_refusals(self):
-        with self.assertRaisesRegex(ValueError, r"cells\[0, 3\] is 9: there are 8 points"):
-            cellwalk.Environment(CUBE, numpy.array([[0, 1, 2, 9]]))
-        with self.assertRaisesRegex(ValueError, "cells has 7 columns"):
-            cellwalk.Environment(CUBE, numpy.zeros((1, 7), int))
-        with self.assertRaisesRegex(TypeError, "cells must be an integer array"):
-            cellwalk.Environment(CUBE, numpy.zeros((1, 4)))
+        with self.assertRaisesRegex(cellwalk.RowError, r"cells\[0, 3\] is 9: there are 8 points"):
+            cellwalk.Environment.from_arrays(CUBE, numpy.array([[0, 1, 2, 9]]))
+        with self.assertRaisesRegex(ValueError, r"cells has shape \(1, 7\): \(M, 4\) for tetrahedra.* is needed"):
+            cellwalk.Environment.from_arrays(CUBE, numpy.zeros((1, 7), int))
+        with self.assertRaisesRegex(TypeError, r"cells must be integers, and is float64 of shape \(1, 4\)"):
+            cellwalk.Environment.from_arrays(CUBE, numpy.zeros((1, 4)))
         flat = numpy.array([[0, 1, 2, 3]])
         with self.assertRaises(cellwalk.NotCertifiedError) as caught:
-            cellwalk.Environment(CUBE, flat)
+            cellwalk.Environment.from_arrays(CUBE, flat)
         self.assertEqual(caught.exception.code, 4)
         self.assertIsInstance(caught.exception, (cellwalk.Error, ValueError))
 

@@ -22,7 +22,7 @@ def boxes(*planes, left_out=()):
     corners = loop if len(planes) == 2 else [(x, y, z) for z in (0, 1) for x, y in loop]
     cells = [[sum((at + step) * stride for at, step, stride in zip(cell, corner, strides)) for corner in corners]
              for cell in itertools.product(*(range(len(p) - 1) for p in planes)) if cell not in left_out]
-    return cellwalk.Environment(points, numpy.array(cells))
+    return cellwalk.Environment.from_arrays(points, numpy.array(cells))
 
 
 def with_membrane(dimension):
@@ -261,14 +261,14 @@ class Bodies(unittest.TestCase):
             cellwalk.Body(self.environment, self.points, radius=3.0)
         for radius, error, text in ((-1, ValueError, "radius must be a finite number of at least 0, and is -1"),
                                     (numpy.nan, ValueError, "and is nan"), (numpy.inf, ValueError, "and is inf"),
-                                    (numpy.ones(2), ValueError, "radius has 2 rows, and edges has 3"),
+                                    (numpy.ones(2), ValueError, r"radius has shape \(2,\): \(3,\), one for each of the edges, is needed"),
                                     (numpy.array([1, -2.0, 0]), ValueError, r"radius\[1\] must be"),
-                                    ([0.5, 0.5, 0.5], TypeError, "a number or a C-contiguous float64 array"), (None, TypeError, "")):
+                                    (["0.5"] * 3, TypeError, "radius must be real numbers"), (None, TypeError, "radius must be a number, or an array")):
             with self.assertRaisesRegex(error, text):
                 self.fork(radius)
         fork = self.fork(0.5)
-        for radius, error, text in ((-1, ValueError, "and is -1"), (numpy.ones(3), ValueError, "radius has 3 rows, and Body.edges has 2"),
-                                    ([1.0, 1.0], TypeError, "")):
+        for radius, error, text in ((-1, ValueError, "and is -1"), (numpy.ones(3), ValueError, r"radius has shape \(3,\): \(2,\), one for each of the edges, is needed"),
+                                    ("1", TypeError, "and is str")):
             with self.assertRaisesRegex(error, text):
                 fork.set_radii(radius)
         self.assertEqual(fork.radii.tolist(), [0.5, 0.5])

@@ -183,18 +183,18 @@ class Environments(unittest.TestCase):
         self.assertTrue((moves.end == MoveEnd.REACHED).all())
 
     def test_simplicial(self):
-        for made in (plane(), room(), cellwalk.Environment(*CUBE, simplicial=True)):
+        for made in (plane(), room(), cellwalk.Environment.from_arrays(*CUBE, simplicial=True)):
             corners = made.dimension + 1
             moves = made.reshape(numpy.arange(corners), made.points[:corners] * 0.5 + 0.25, at_contact="test")
             self.assertEqual(len(moves), corners)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "cube.ovm"
-            cellwalk.Environment(*CUBE).save(path)
+            cellwalk.Environment.from_arrays(*CUBE).save(path)
             self.assertEqual(cellwalk.Environment.import_mesh(path).cell_count, 1)
             split = cellwalk.Environment.import_mesh(path, simplicial=True)
         self.assertGreaterEqual(split.cell_count, 5)
         self.assertEqual(split.certificate["volume"], 1)
-        for make in (lambda **o: cellwalk.Environment(*CUBE, **o), lambda **o: cellwalk.Environment.import_mesh(path, **o)):
+        for make in (lambda **o: cellwalk.Environment.from_arrays(*CUBE, **o), lambda **o: cellwalk.Environment.import_mesh(path, **o)):
             with self.assertRaisesRegex(cellwalk.UsageError, "simplicial=True splits cells"):
                 make(simplicial=True, split=False)
 
@@ -257,7 +257,7 @@ class Listing(unittest.TestCase):
     def test_particles_at_walls_keep_their_sides(self):
         """A wall with free space on both sides: located again, a particle in it stays on its own side."""
         points = numpy.array([[0.0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [1, 0], [1, 1]])
-        slit = cellwalk.Environment(points, numpy.array([[0, 1, 4], [0, 4, 3], [6, 2, 5], [6, 5, 7]]), duplicates="keep")
+        slit = cellwalk.Environment.from_arrays(points, numpy.array([[0, 1, 4], [0, 4, 3], [6, 2, 5], [6, 5, 7]]), duplicates="keep")
         particles = cellwalk.Particles(slit, numpy.array([[0.5, 0.5], [1.5, 0.5]]))
         self.assertTrue((particles.move(numpy.array([[1.0, 0.5], [1.0, 0.5]])).status == Status.FREE).all())
         cells = particles.cells
@@ -282,13 +282,14 @@ class Refusals(unittest.TestCase):
 
     def test_arrays(self):
         to = self.before[:2] + [0, 0, -0.125]
-        self.refused(TypeError, "targets must be a C-contiguous float64 array", [0, 1], to.tolist())
-        self.refused(TypeError, r"shape \(N, 3\)", [0, 1], to[:, :2].copy())
-        self.refused(TypeError, "points must be an integer array of one dimension, and is float64", numpy.zeros(2), to)
-        self.refused(TypeError, "one dimension", numpy.zeros((2, 1), int), to)
-        self.refused(ValueError, "targets has 2 rows, and points has 3", [0, 1, 2], to)
-        self.refused(ValueError, r"points\[1\] is 45: there are 45 points, numbered from 0", [0, 45], to)
+        self.refused(TypeError, "targets must be real numbers", [0, 1], to.astype(complex))
+        self.refused(ValueError, r"targets has shape \(2, 2\): \(N, 3\) is needed", [0, 1], to[:, :2])
+        self.refused(TypeError, r"points must be integers \(N,\), or a boolean mask \(45,\), and is float64", numpy.zeros(2), to)
+        self.refused(ValueError, r"points has shape \(2, 1\): \(N,\) is needed", numpy.zeros((2, 1), int), to)
+        self.refused(ValueError, r"targets has shape \(2, 3\): \(3, 3\), a row for each of points, is needed", [0, 1, 2], to)
+        self.refused(IndexError, r"points\[1\] is 45: there are 45 points, numbered from 0", [0, 45], to)
         self.refused(ValueError, r"points\[0\] is -1: there are", [-1, 0], to)
+        self.refused(IndexError, r"points has shape \(3,\): a mask of the points has shape \(45,\)", numpy.ones(3, bool), to)
         self.refused(ValueError, r"points\[1\] is 7, as points\[0\] is", [7, 7], to)
         for x in (numpy.nan, numpy.inf):
             to[1, 2] = x
@@ -301,7 +302,7 @@ class Refusals(unittest.TestCase):
         other = room()
         self.refused(TypeError, r"bodies\[0\] is Particles: a list of Body is needed", *empty, bodies=[self.particles])
         self.refused(TypeError, r"particles\[1\] is NoneType", *empty, particles=[self.particles, None])
-        self.refused(TypeError, "reshape", *empty, bodies=self.body)
+        self.refused(TypeError, "bodies is Body: a list of Body is needed", *empty, bodies=self.body)
         self.refused(cellwalk.UsageError, r"bodies\[1\] is bodies\[0\] again: list it once", *empty, bodies=[self.body] * 2)
         self.refused(cellwalk.UsageError, r"particles\[1\] is particles\[0\] again", *empty, particles=[self.particles] * 2)
         for listed in ({"bodies": [self.body]}, {"particles": [self.particles]}):

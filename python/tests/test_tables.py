@@ -86,8 +86,9 @@ class Selecting(unittest.TestCase):
                               ("box has a coordinate", {"box": ((0, numpy.nan), (1, 1))}), ("plane has a", {"plane": ((0, 0), (numpy.inf, 0))})):
             with self.assertRaisesRegex(ValueError, message):
                 environment.select(**part)
-        for message, part in (("box must be a pair of sequences of 2 numbers", {"box": ((0, 0, 0), (1, 1, 1))}),
-                              ("ball must be a pair of a sequence of 2", {"ball": 3}), ("plane must be a pair", {"plane": "x"})):
+        with self.assertRaisesRegex(ValueError, r"box has shape \(2, 3\): \(N, 2\) is needed"):
+            environment.select(box=((0, 0, 0), (1, 1, 1)))
+        for message, part in (("ball must be a pair of a point and a number", {"ball": 3}), ("plane must be real numbers", {"plane": "x"})):
             with self.assertRaisesRegex(TypeError, message):
                 environment.select(**part)
 

@@ -51,8 +51,9 @@ Answer<D> answer(const Snapshot<D>& snapshot, const Locator<D>& locator, const P
   const std::vector<Particle<D>> starts = locator.particles_at(from);
   Answer<D> best;
   best.status = Motion_status::outside;
-  for (const Particle<D>& start : starts) {
-    const Answer<D> result = move_from<Kernel>(snapshot, start, to, touch, strategy, counts);
+  for (std::uint32_t side = 0; side < starts.size(); ++side) {
+    Answer<D> result = move_from<Kernel>(snapshot, starts[side], to, touch, strategy, counts);
+    result.side = side;
     const bool further = result.status == Motion_status::free ||
                          (result.contact && best.contact && result.contact->time > best.contact->time);
     if (best.status == Motion_status::outside || further) best = result;

@@ -8,9 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -205,6 +207,74 @@ void test_worlds() {
 
 TEST(TraceOracle, LengthsAreThoseOfTheTruth2) { test_worlds<2>(); }
 TEST(TraceOracle, LengthsAreThoseOfTheTruth3) { test_worlds<3>(); }
+
+template <int D>
+void test_calls() {
+  const World<D> world = make_world<D>(3);
+  const Snapshot<D> snapshot = Snapshot<D>::compile(world.soup, glue(world.soup));
+  const Locator<D> locator(snapshot);
+  const Tracer<D> tracer(snapshot);
+  const Batch<D> batch = make_batch(world, locator, 3, 700);  // more rows than are walked at a time
+  Traces whole;
+  Walk_counts counts;
+  std::vector<Particle<D>> particles = batch.particles;
+  tracer.trace(particles, batch.targets, whole, counts);
+  for (const std::size_t rows : {1u, 7u, 299u}) {
+    Traces parts;
+    std::vector<Particle<D>> moved = batch.particles;
+    for (std::size_t begin = 0; begin < moved.size(); begin += rows) {
+      const std::size_t count = std::min(rows, moved.size() - begin);
+      tracer.trace(std::span(moved).subspan(begin, count), std::span(batch.targets).subspan(begin, count),
+                   parts, counts);
+    }
+    EXPECT_EQ(parts.offsets, whole.offsets);
+    EXPECT_EQ(parts.cells, whole.cells);
+    EXPECT_EQ(parts.lengths, whole.lengths);
+    EXPECT_EQ(parts.crossing_offsets, whole.crossing_offsets);
+    EXPECT_EQ(parts.crossings, whole.crossings);
+    for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_EQ(moved[i].cell, particles[i].cell);
+  }
+}
+
+TEST(Tracer, GivesTheSameRowsHoweverTheyAreDividedAmongCalls) {
+  test_calls<2>();
+  test_calls<3>();
+}
+
+TEST(Tracer, RefusesAndLeavesAllAsItWas) {
+  const World<3> world = make_world<3>(0);
+  Snapshot<3> snapshot = Snapshot<3>::compile(world.soup, glue(world.soup));
+  const Locator<3> locator(snapshot);
+  const Tracer<3> tracer(snapshot);
+  Batch<3> batch = make_batch(world, locator, 0, 20);
+  batch.particles[19] = {snapshot.point(0), Cell{0}, 0, 0};  // in a cell
+  const std::vector<Particle<3>> starts = batch.particles;
+  Traces traces;
+  Walk_counts counts;
+  const auto expect_refusal = [&](std::span<const Point<3>> targets, Error_code code) {
+    try {
+      tracer.trace(batch.particles, targets, traces, counts);
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code);
+    }
+    EXPECT_EQ(traces.size(), 0u);
+    EXPECT_TRUE(traces.cells.empty());
+    EXPECT_EQ(traces.offsets, std::vector<std::uint64_t>{0});
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      EXPECT_EQ(batch.particles[i].position, starts[i].position);
+  };
+  expect_refusal(std::span(batch.targets).first(19), Error_code::usage);
+  std::vector<Point<3>> infinite = batch.targets;
+  infinite[19][1] = std::numeric_limits<double>::infinity();
+  expect_refusal(infinite, Error_code::input);
+  batch.particles[19].cell = Cell{static_cast<std::uint32_t>(snapshot.half_facet_slots())};
+  expect_refusal(batch.targets, Error_code::usage);
+  batch.particles = starts;
+  const std::vector<Cell> cells{snapshot.cell(0)};
+  snapshot.update_geometry(cells);
+  expect_refusal(batch.targets, Error_code::usage);
+}
 
 }  // namespace
 }  // namespace cellwalk::oracle

@@ -21,7 +21,7 @@ n = numpy.arange(len(points)).reshape(r.shape)
 quad = numpy.stack([n[:-1, :-1], n[1:, :-1], n[1:, 1:], n[:-1, 1:]], axis=-1)  # at all heights
 cells = numpy.concatenate([quad[:, :, :-1], quad[:, :, 1:]], axis=-1).reshape(-1, 8)  # lower and upper corners, as in VTK
 
-duct = cellwalk.Environment(points, cells)
+duct = cellwalk.Environment.from_arrays(points, cells)
 changed = duct.report["changed"]
 print(f"{changed['cells_read']} cells, of which {changed['cells_split']} were split: {changed['not_planar']} have a bent facet")
 print(duct)
@@ -29,7 +29,7 @@ print(duct)
 
 ## [refused]
 try:
-    cellwalk.Environment(points, cells, split=False)
+    cellwalk.Environment.from_arrays(points, cells, split=False)
 except cellwalk.NotCertifiedError as error:
     print(error)
 ## [refused]

@@ -21,6 +21,5 @@ for step in range(500):
     velocities[row] -= 2 * (velocities[row] * normal).sum(axis=1, keepdims=True) * normal
     bounces += len(row)
 print(f"{len(particles)} particles, {bounces} bounces")
-ends = numpy.ascontiguousarray(particles.positions)  # a copy of the view, as questions take arrays in one piece
-print("escaped:", numpy.count_nonzero(ring.locate(ends).status != cellwalk.Place.FREE))
+print("escaped:", numpy.count_nonzero(ring.locate(particles.positions).status != cellwalk.Place.FREE))
 ## [bounce]

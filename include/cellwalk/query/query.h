@@ -34,6 +34,8 @@ struct Answer {
   Cell cell = Cell::none;   ///< in which the motion ends, or its contact is; none if outside or invalid
   /// If status is contact; if it is close, the nearest point of walls and its distance, at the time 0.
   std::optional<Contact<D>> contact;
+  /// The side of walls from which a point starts: its number in Locator::particles_at().
+  std::uint32_t side = 0;
 };
 
 /// Answers a motion from one point to another. A start on a wall with free space on several sides may belong

@@ -42,6 +42,8 @@ void refuse_misfits(const Query_options& options, const CLI::App& command) {
                     fmt::format("{} needs {}; see cellwalk query --help", name, condition));
   };
   const bool is_exact = options.method.kernel == Kernel_choice::exact;
+  if (options.mode == Query_mode::sweep || !is_exact || options.sweep.touch == Touch::stop)
+    need({"--trace", "--tally"}, "--mode move, --kernel exact and --touch pass");
   if (options.row.has_value() != (!options.record.empty() || !options.picture.empty()))
     throw Error(Error_code::usage,
                 "--row says what --record or --picture is of: give both; see cellwalk query --help");
@@ -106,6 +108,23 @@ void add_move_options(CLI::App& command, Query_options& options) {
       .add_option("--record", options.record,
                   "Write the motion of a row with all that --replay-failure needs")
       ->type_name("FILE")
+      ->group(group);
+}
+
+void add_trace_options(CLI::App& command, Query_options& options) {
+  constexpr const char* group = "With --mode move";
+  command
+      .add_option(
+          "--trace", options.trace,
+          "Write the cells that each motion crosses, with the length in each: row,cell,length. Lengths "
+          "are rounded to nearest")
+      ->type_name("PIECES.csv")
+      ->group(group);
+  command
+      .add_option("--tally", options.tally,
+                  "Write the cells with the sum of these lengths over all motions, each times its column "
+                  "`weight` if the table has one. The sums do not depend on the order of motions")
+      ->type_name("CELLS.vtu")
       ->group(group);
 }
 
@@ -199,6 +218,7 @@ void add_query(CLI::App& app, Action& chosen) {
   add_duplicates(*command, options->build.duplicates);
   add_json(*command, options->json);
   add_move_options(*command, *options);
+  add_trace_options(*command, *options);
   add_sweep_options(*command, *options);
   add_examples(*command, {"cellwalk query vessel.ovm moves.csv -o answers.csv",
                           "cellwalk query vessel.ovm edges.csv --mode sweep --touch stop -o contacts.csv",

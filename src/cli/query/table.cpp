@@ -3,6 +3,7 @@
 #include "table.h"
 
 #include <cellwalk/internal/io/query_file.h>
+#include <cellwalk/internal/io/vtu.h>
 #include <cellwalk/internal/kernel/byte_archive.h>
 
 #include <fmt/core.h>
@@ -10,10 +11,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,7 @@
 #include "cli/common/environment_file.h"
 #include "cli/common/printable.h"
 #include "picture.h"
+#include "pieces.h"
 #include "walk_repro.h"
 
 namespace cellwalk::cli {
@@ -131,7 +135,7 @@ std::optional<Query_row<D, N>> wanted_row(const Query_options& options, Ranks& r
   if (!ranks.is_first()) return std::nullopt;
   if (!found)
     throw Error(Error_code::usage, fmt::format("--row {}: there is no such valid row", *options.row));
-  return Query_row<D, N>{found->first, found->second, 0, {}};
+  return Query_row<D, N>{found->first, found->second, 1, 0, {}};
 }
 
 /// Draws the requested row.
@@ -167,6 +171,91 @@ void refuse_with_radii(const Query_options& options) {
   if (options.sweep.touch == Touch::stop) refuse("--touch stop", "with one, no wall is touched");
   if (options.method.kernel != Kernel_choice::exact) refuse("--kernel", "distances are exact only");
   if (options.contact) refuse("--contact", "leave it out, the exact time is found");
+  if (!options.trace.empty()) refuse("--trace", "a radius crosses no cells");
+  if (!options.tally.empty()) refuse("--tally", "a radius crosses no cells");
+}
+
+/// The traces that are requested of the rows of this rank, and those of all on the first.
+/// \param files on the first rank
+template <int D>
+class Traced {
+ public:
+  Traced(const Query_options& options, Query_files* files, Ranks& ranks, const Environment<D>& environment,
+         const Locator<D>& locator, const std::vector<Query_row<D, 2>>& rows)
+      : options_(options), files_(files), ranks_(ranks), environment_(environment) {
+    if (options.trace.empty() && options.tally.empty()) return;
+    std::optional<double> largest;
+    if (!options.tally.empty()) largest = largest_value(environment.snapshot(), largest_weight(rows));
+    if (!options.trace.empty()) {
+      if (files)
+        table_.emplace(*files->trace, std::vector<std::string>{"row", "cell", "length"});
+      else
+        table_.emplace(text_, 3);
+    }
+    pieces_.emplace(environment.snapshot(), locator, table_ ? &*table_ : nullptr, largest);
+  }
+
+  void add(std::size_t first, std::span<const Query_row<D, 2>> rows, const std::vector<Answer<D>>& answers) {
+    if (pieces_) pieces_->add(first, rows, answers);
+  }
+
+  void gather() {
+    if (table_)
+      ranks_.gather(std::move(text_), [&](const std::string& of_rank) { files_->trace->write(of_rank); });
+    if (options_.tally.empty()) return;
+    Tally& tally = pieces_->tally();
+    ranks_.gather(files_ ? std::string() : to_message(tally.words()), [&](const std::string& of_rank) {
+      if (!of_rank.empty()) tally.add_words(from_message<std::vector<std::uint64_t>>(of_rank));
+    });
+    if (!files_) return;
+    io::Vtu_grid grid = io::vtu_of_cells(environment_.soup());
+    std::vector<double> lengths(grid.cell_count());
+    for (std::size_t cell = 0; cell < lengths.size(); ++cell) lengths[cell] = tally[cell];
+    grid.cell_data.push_back({"track_length", 1, std::move(lengths)});
+    files_->tally->write(io::vtu_text(grid));
+  }
+
+ private:
+  double largest_weight(const std::vector<Query_row<D, 2>>& rows) {
+    double largest = 0;
+    for (const Query_row<D, 2>& row : rows)
+      if (row.error.empty()) largest = std::max(largest, std::abs(row.weight));
+    ranks_.gather(to_message(largest), [&](const std::string& of_rank) {
+      largest = std::max(largest, from_message<double>(of_rank));
+    });
+    return from_message<double>(ranks_.broadcast(to_message(largest)));
+  }
+
+  const Query_options& options_;
+  Query_files* const files_;
+  Ranks& ranks_;
+  const Environment<D>& environment_;
+  std::string text_;  // of a later rank
+  std::optional<io::Csv_writer> table_;
+  std::optional<Piece_tables<D>> pieces_;
+};
+
+/// Of sweeps, nothing is traced.
+template <int D>
+struct Not_traced {
+  template <class... Arguments>
+  explicit Not_traced(const Arguments&...) {}
+  template <class... Arguments>
+  void add(const Arguments&...) {}
+  void gather() {}
+};
+
+/// Sets the weights of rows from the column `weight`, if there is one. A row without a number there is
+/// invalid.
+template <int D>
+void set_weights(const io::Csv_table& table, std::vector<Query_row<D, 2>>& rows) {
+  const auto column = table.find_column("weight");
+  for (std::size_t r = 0; column && r < rows.size(); ++r) {
+    if (!rows[r].error.empty()) continue;
+    const io::Parsed_number number = table.number(r, *column);
+    rows[r].weight = number.value;
+    rows[r].error = number.reason;
+  }
 }
 
 /// Answers the rows of this rank by answer(row, counts), and hands the answers to the first, which writes
@@ -187,16 +276,20 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
   if (files == nullptr) text.reserve(about * rows.size());
   io::Csv_writer table =
       files != nullptr ? io::Csv_writer(*files->answers, columns) : io::Csv_writer(text, columns.size());
+  std::conditional_t<N == 2, Traced<D>, Not_traced<D>> traced(options, files, ranks, environment, locator,
+                                                              rows);
   Answered answered;
   answer_rows(rows, label, answered.counts, answer,
               [&](std::size_t begin, const std::vector<Answer<D>>& answers) {
                 const std::span<const Query_row<D, N>> of_batch(rows.data() + begin, answers.size());
                 answered.add(answers, of_batch);
                 write_answers(table, first + begin, snapshot, of_batch, answers, has_radii);
+                traced.add(first + begin, of_batch, answers);
               });
   if (files == nullptr) {
     ranks.gather(to_message(answered));
     ranks.gather(std::move(text));
+    traced.gather();
     return;
   }
   if (wanted) {
@@ -210,6 +303,7 @@ void answer_rows_of_rank(const Query_options& options, Query_files* files, Ranks
     answered.add(from_message<Answered>(of_rank));
   });
   ranks.gather({}, [&](const std::string& of_rank) { files->answers->write(of_rank); });
+  traced.gather();
   report(options, *files, answered, has_radii);
 }
 
@@ -223,7 +317,8 @@ void answer_table(const Query_options& options, Query_files* files, Ranks& ranks
   const bool has_radii = options.radius != 0 || table.find_column("radius");
   if (has_radii) refuse_with_radii(options);
   if (options.mode == Query_mode::move) {
-    const auto moves = io::query_rows<D, 2>(table, {"a", "b"}, options.radius);
+    auto moves = io::query_rows<D, 2>(table, {"a", "b"}, options.radius);
+    if (!options.tally.empty()) set_weights(table, moves);
     const Locator<D> locator(snapshot);
     answer_rows_of_rank(
         options, files, ranks, environment, moves, has_radii, "walking",

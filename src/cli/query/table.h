@@ -23,6 +23,7 @@ struct Query_options {
   std::string failure;             // if set, a repro file to replay, and nothing else
   std::string record;              // if set, the repro file for the motion of the row
   std::string picture;             // if set, the picture of the row
+  std::string trace, tally;        // if set, the table of pieces, and the grid of their sums
   std::optional<std::size_t> row;  // of the repro file or the picture
   Query_mode mode = Query_mode::move;
   double radius = 0;  // of rows without one of their own
@@ -43,10 +44,12 @@ struct Query_files {
         answers(all.file(options.output)),
         json(all.file(options.json)),
         record(all.file(options.record)),
-        picture(all.file(options.picture)) {}
+        picture(all.file(options.picture)),
+        trace(all.file(options.trace)),
+        tally(all.file(options.tally)) {}
 
   Outputs all;
-  io::Atomic_file *answers, *json, *record, *picture;
+  io::Atomic_file *answers, *json, *record, *picture, *trace, *tally;
 };
 
 /// Answers the rows of this rank, and hands the answers to the first rank, which writes those of all.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Loops turned by the direction of their common edges, and the sign of the enclosed volume.
-#include "polyhedron.h"
+#include <cellwalk/internal/io/polyhedron.h>
 
 #include <algorithm>
 #include <map>

@@ -2,6 +2,8 @@
 // The corners of each VTK cell type in the order of the soup, and its polyhedra from their streams.
 #include "vtk_cells.h"
 
+#include <cellwalk/internal/io/polyhedron.h>
+
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -16,7 +18,6 @@
 #include <optional>
 
 #include "io/files/text.h"
-#include "polyhedron.h"
 #include "wedge_order.h"
 
 namespace cellwalk::io {

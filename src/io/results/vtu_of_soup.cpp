@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The cells and walls of a soup as VTK cells: tetrahedra, hexahedra or polyhedra.
+// The cells and walls of a soup as VTK cells: as those of known types, or polyhedra.
 #include <cellwalk/internal/io/vtu.h>
 
 #include <algorithm>
@@ -21,10 +21,6 @@ std::vector<Loop> loops_of(const Cell_soup<3>& soup, std::size_t c) {
   return loops;
 }
 
-bool all_of_size(const std::vector<Loop>& loops, std::size_t n) {
-  return std::all_of(loops.begin(), loops.end(), [n](const Loop& loop) { return loop.size() == n; });
-}
-
 /// The vertex of the cell that is joined to v by an edge and does not lie on the first facet, if there is
 /// exactly one.
 std::optional<std::uint32_t> above(const std::vector<Loop>& loops, std::uint32_t v) {
@@ -43,18 +39,26 @@ std::optional<std::uint32_t> above(const std::vector<Loop>& loops, std::uint32_t
   return found;
 }
 
-/// The corners in VTK's order if the cell is combinatorially a tetrahedron or hexahedron; otherwise none.
-std::optional<Loop> corners_of_known_type(const std::vector<Loop>& loops) {
-  const bool tetrahedron = loops.size() == 4 && all_of_size(loops, 3);
-  const bool hexahedron = loops.size() == 6 && all_of_size(loops, 4);
-  if (!tetrahedron && !hexahedron) return std::nullopt;
-  Loop corners(loops[0].rbegin(), loops[0].rend());  // counterclockwise seen from inside
+/// The corners of a cell that is combinatorially a tetrahedron, pyramid, wedge or hexahedron: those of its
+/// base, counterclockwise seen from inside, then those above them. Otherwise none.
+std::optional<Loop> corners_of_known_type(std::vector<Loop> loops) {
+  const auto of_size = [&](std::size_t n) {
+    return std::count_if(loops.begin(), loops.end(), [n](const Loop& loop) { return loop.size() == n; });
+  };
+  const std::array sizes{of_size(3), of_size(4)};
+  const bool has_apex = sizes == std::array{4L, 0L} || sizes == std::array{4L, 1L};
+  if (!has_apex && sizes != std::array{2L, 3L} && sizes != std::array{0L, 6L}) return std::nullopt;
+  if (loops.size() != static_cast<std::size_t>(sizes[0] + sizes[1])) return std::nullopt;
+  const std::size_t base_size = sizes[1] == 1 || sizes[1] == 6 ? 4 : 3;
+  std::stable_partition(loops.begin(), loops.end(),
+                        [&](const Loop& loop) { return loop.size() == base_size; });
+  Loop corners(loops[0].rbegin(), loops[0].rend());
   std::rotate(corners.begin(), corners.end() - 1, corners.end());
   const Loop base = corners;
   for (std::uint32_t v : base) {
     const auto top = above(loops, v);
     if (!top) return std::nullopt;
-    if (tetrahedron && corners.size() == 4) {
+    if (has_apex && corners.size() > base_size) {
       if (corners.back() != *top) return std::nullopt;
       continue;
     }
@@ -72,10 +76,20 @@ std::optional<Loop> corners_of_known_type(const std::vector<Loop>& loops) {
 
 void add_cell_of(Vtu_grid& grid, const Cell_soup<3>& soup, std::size_t c) {
   const std::vector<Loop> loops = loops_of(soup, c);
-  if (const auto corners = corners_of_known_type(loops))
-    grid.add_cell(corners->size() == 4 ? Vtu_cell::tetrahedron : Vtu_cell::hexahedron, *corners);
-  else
-    grid.add_polyhedron(loops);
+  std::optional<Loop> corners = corners_of_known_type(loops);
+  if (!corners) return grid.add_polyhedron(loops);
+  switch (corners->size()) {
+    case 4:
+      return grid.add_cell(Vtu_cell::tetrahedron, *corners);
+    case 5:
+      return grid.add_cell(Vtu_cell::pyramid, *corners);
+    case 6:  // VTK has the triangles of a wedge in the opposite direction.
+      std::swap((*corners)[1], (*corners)[2]);
+      std::swap((*corners)[4], (*corners)[5]);
+      return grid.add_cell(Vtu_cell::wedge, *corners);
+    default:
+      return grid.add_cell(Vtu_cell::hexahedron, *corners);
+  }
 }
 
 Vtu_cell polygon_type(std::size_t n) {

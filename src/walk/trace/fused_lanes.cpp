@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Lengths in lanes of four, with fused products: compiled for processors that have them, and called on those
-// only. All code but the entry is local to this file.
+// Four doubles or eight floats at a time, with fused products: compiled for processors that have them, and
+// called on those only. All code but the entry is local to this file.
 #include <immintrin.h>
 
-#include "lane_lengths.h"
+#include "lane_functions.h"
 
 namespace cellwalk::detail {
 namespace {
@@ -19,8 +19,10 @@ struct Fused_lanes {
   static Vector product_error(Vector a, Vector b, Vector product) {
     return Vector(_mm256_fmsub_pd(__m256d(a), __m256d(b), __m256d(product)));
   }
-  static double product_error(double a, double b, double product) { return __builtin_fma(a, b, -product); }
-  static double square_root(double x) { return __builtin_sqrt(x); }
+  static Vector multiply_add(Vector a, Vector b, Vector c) {
+    return Vector(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
+  }
+  static Vector square_root(Vector x) { return Vector(_mm256_sqrt_pd(__m256d(x))); }
   static Vector magnitude(Vector x) { return Vector(_mm256_andnot_pd(_mm256_set1_pd(-0.0), __m256d(x))); }
   static void transpose(const double* r0, const double* r1, const double* r2, const double* r3,
                         Vector* columns) {
@@ -47,11 +49,38 @@ struct Fused_lanes {
   }
 };
 
+/// Four planes of each of two cells.
+struct Fused_cells {
+  using Floats = float __attribute__((vector_size(32)));
+  using Bits = int __attribute__((vector_size(32)));
+  static constexpr unsigned cells = 2;
+
+  static Floats all_floats(float x) { return Floats{x, x, x, x, x, x, x, x}; }
+  static Floats load_floats(const float* from) { return Floats(_mm256_load_ps(from)); }
+  static Floats row(const float* const blocks[2], unsigned begin) {
+    const __m128 low = _mm_loadu_ps(blocks[0] + begin), high = _mm_loadu_ps(blocks[1] + begin);
+    return Floats(_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1));
+  }
+  static Floats multiply_add(Floats a, Floats b, Floats c) {
+    return Floats(_mm256_fmadd_ps(__m256(a), __m256(b), __m256(c)));
+  }
+  static Bits is_above(Floats a, Floats b) { return a > b; }
+  static Bits is_at_most(Floats a, Floats b) { return a <= b; }
+  static Floats choose(Bits condition, Floats a, Floats b) {
+    return Floats(_mm256_blendv_ps(__m256(b), __m256(a), __m256(condition)));
+  }
+  /// The least of the four values of each cell, in all of its lanes.
+  static Floats least_of_four(Floats x) {
+    const __m256 half = _mm256_min_ps(__m256(x), _mm256_permute_ps(__m256(x), _MM_SHUFFLE(2, 3, 0, 1)));
+    return Floats(_mm256_min_ps(half, _mm256_permute_ps(half, _MM_SHUFFLE(1, 0, 3, 2))));
+  }
+  static unsigned mask(Bits lanes) { return static_cast<unsigned>(_mm256_movemask_ps(__m256(lanes))); }
+};
+
 }  // namespace
 
-bool lengths_in_fused_lanes(const Lane_segment& segment, const Lane_crossings& crossings,
-                            const Lane_positions& positions) {
-  return lengths_in_lanes<Fused_lanes>(segment, crossings, positions);
-}
+const Lane_functions fused_lane_functions{&set_directions_in_lanes<Fused_lanes>,
+                                          &measure_in_lanes<Fused_lanes>, &walk_in_lanes<Fused_cells, 2>,
+                                          &walk_in_lanes<Fused_cells, 3>};
 
 }  // namespace cellwalk::detail

@@ -27,6 +27,14 @@ struct alignas(64) Lane_plane {
 /// The unit of errors, in units of M.
 inline constexpr double lane_error = 0x1p17 * 0x1p-106;
 
+/// Segments, a coordinate after the other, each an array with room for seven more: ends, and room for unit
+/// directions and lengths. In 2D the third coordinates are 0.
+struct Lane_segments {
+  double *from[3], *to[3];
+  double *direction_high[3], *direction_low[3], *length_high, *length_low;
+  double error;  ///< lane_error M
+};
+
 /// The facets that a segment meets, in order.
 struct Lane_crossings {
   const Lane_plane* planes;    ///< of all facets
@@ -36,25 +44,11 @@ struct Lane_crossings {
   bool end_on_last;  ///< the last of them ends the segment
 };
 
-/// A segment; in 2D the last coordinates are 0.
-struct Lane_segment {
-  double from[3], to[3];
-  double error;  ///< lane_error M
-};
-
 /// Positions on the segment, and the bounds of their errors: the start, those of the facets, the end; each
 /// array has room for eight more. `length` receives the pieces between them.
 struct Lane_positions {
   double *high, *low, *error, *length;
 };
-
-/// Computes the lengths.
-/// \return true if each is positive and the double nearest to its exact value
-using Lane_lengths = bool (*)(const Lane_segment& segment, const Lane_crossings& crossings,
-                              const Lane_positions& positions);
-
-bool lengths_in_fused_lanes(const Lane_segment& segment, const Lane_crossings& crossings,
-                            const Lane_positions& positions);
 
 namespace {
 
@@ -66,55 +60,56 @@ inline V sum_with_error(V a, V b, V& sum) {
   return (a - (sum - of_b)) + (b - of_b);
 }
 
-/// The unit direction of a segment, and its length.
+/// Computes the directions and lengths of segments.
 template <class Lanes>
-struct Lane_direction {
-  double high[3], low[3];
-  double length_high, length_low;
-
-  explicit Lane_direction(const Lane_segment& segment) {
-    double d[3], d_low[3], square[3], low_sum = 0;
+inline void set_directions_in_lanes(const Lane_segments& segments, unsigned long count) {
+  using V = typename Lanes::Vector;
+  for (unsigned long i = 0; i < count; i += Lanes::width) {
+    V d[3], d_low[3], square[3], low_sum = Lanes::all(0);
     for (int k = 0; k < 3; ++k) {
-      d_low[k] = sum_with_error(segment.to[k], -segment.from[k], d[k]);
+      d_low[k] = sum_with_error(Lanes::load(segments.to[k] + i), -Lanes::load(segments.from[k] + i), d[k]);
       square[k] = d[k] * d[k];
-      low_sum += Lanes::product_error(d[k], d[k], square[k]) + 2 * d[k] * d_low[k];
+      low_sum = low_sum + (Lanes::product_error(d[k], d[k], square[k]) + Lanes::all(2) * d[k] * d_low[k]);
     }
-    double sum, squared;
-    low_sum += sum_with_error(square[0], square[1], sum);
-    low_sum += sum_with_error(sum, square[2], squared);
-    const double root = Lanes::square_root(squared), product = root * root, inverse = 1 / root;
-    const double rest = ((squared - product) - Lanes::product_error(root, root, product)) + low_sum;
-    const double correction = 0.5 * rest * inverse;
-    length_high = root + correction;
-    length_low = correction - (length_high - root);
+    V sum, squared;
+    low_sum = low_sum + sum_with_error(square[0], square[1], sum);
+    low_sum = low_sum + sum_with_error(sum, square[2], squared);
+    const V root = Lanes::square_root(squared), product = root * root, inverse = Lanes::all(1) / root;
+    const V rest = ((squared - product) - Lanes::product_error(root, root, product)) + low_sum;
+    const V correction = Lanes::all(0.5) * rest * inverse, length = root + correction;
+    const V length_low = correction - (length - root);
+    Lanes::store(segments.length_high + i, length);
+    Lanes::store(segments.length_low + i, length_low);
 
-    // The inverse of the length, of twice the precision, times the differences.
-    const double one = inverse * length_high;
-    const double inverse_low =
-        (((1 - one) - Lanes::product_error(inverse, length_high, one)) - inverse * length_low) * inverse;
+    // The inverse of the length, to twice the precision, times the differences.
+    const V one = inverse * length;
+    const V inverse_low =
+        (((Lanes::all(1) - one) - Lanes::product_error(inverse, length, one)) - inverse * length_low) *
+        inverse;
     for (int k = 0; k < 3; ++k) {
-      const double component = d[k] * inverse;
-      const double small =
+      const V component = d[k] * inverse;
+      const V small =
           Lanes::product_error(d[k], inverse, component) + (d[k] * inverse_low + d_low[k] * inverse);
-      high[k] = component + small;
-      low[k] = small - (high[k] - component);
+      const V high = component + small;
+      Lanes::store(segments.direction_high[k] + i, high);
+      Lanes::store(segments.direction_low[k] + i, small - (high - component));
     }
   }
-};
+}
 
 /// The positions of the facets met.
 template <class Lanes>
-inline void meet_planes(const Lane_segment& segment, const Lane_direction<Lanes>& direction,
-                        const Lane_crossings& crossings, const Lane_positions& positions) {
+inline void meet_planes(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
+                        const Lane_positions& positions) {
   using V = typename Lanes::Vector;
   constexpr unsigned long width = Lanes::width;
   V from[3], e[3], e_low[3];
   for (int k = 0; k < 3; ++k) {
-    from[k] = Lanes::all(segment.from[k]);
-    e[k] = Lanes::all(direction.high[k]);
-    e_low[k] = Lanes::all(direction.low[k]);
+    from[k] = Lanes::all(segments.from[k][segment]);
+    e[k] = Lanes::all(segments.direction_high[k][segment]);
+    e_low[k] = Lanes::all(segments.direction_low[k][segment]);
   }
-  const V unit = Lanes::all(segment.error);
+  const V unit = Lanes::all(segments.error);
   for (unsigned long i = 0; i < crossings.count; i += width) {
     const Lane_plane* of_lane[width];
     for (unsigned long j = 0; j < width; ++j) {
@@ -128,9 +123,11 @@ inline void meet_planes(const Lane_segment& segment, const Lane_direction<Lanes>
     for (int k = 0; k < 3; ++k) {
       along[k] = n[k] * e[k];
       at[k] = n[k] * from[k];
-      slope_low =
-          slope_low + (Lanes::product_error(n[k], e[k], along[k]) + (n[k] * e_low[k] + n_low[k] * e[k]));
-      height_low = height_low - (Lanes::product_error(n[k], from[k], at[k]) + n_low[k] * from[k]);
+      slope_low = Lanes::multiply_add(
+          n[k], e_low[k],
+          Lanes::multiply_add(n_low[k], e[k], slope_low + Lanes::product_error(n[k], e[k], along[k])));
+      height_low =
+          Lanes::multiply_add(-n_low[k], from[k], height_low - Lanes::product_error(n[k], from[k], at[k]));
     }
     V sum, slope, height;
     slope_low = slope_low + sum_with_error(along[0], along[1], sum);
@@ -152,20 +149,21 @@ inline void meet_planes(const Lane_segment& segment, const Lane_direction<Lanes>
   }
 }
 
+/// Computes the lengths of the pieces of a segment.
+/// \return true if each is positive and the double nearest to its exact value
 template <class Lanes>
-inline bool lengths_in_lanes(const Lane_segment& segment, const Lane_crossings& crossings,
-                             const Lane_positions& positions) {
+inline bool measure_in_lanes(const Lane_segments& segments, unsigned long segment,
+                             const Lane_crossings& crossings, const Lane_positions& positions) {
   using V = typename Lanes::Vector;
   constexpr unsigned long width = Lanes::width;
-  const Lane_direction<Lanes> direction(segment);
   positions.high[0] = positions.low[0] = positions.error[0] = 0;
-  meet_planes(segment, direction, crossings, positions);
+  meet_planes<Lanes>(segments, segment, crossings, positions);
   unsigned long pieces = crossings.count;
   if (!crossings.end_on_last) {
     ++pieces;
-    positions.high[pieces] = direction.length_high;
-    positions.low[pieces] = direction.length_low;
-    positions.error[pieces] = segment.error;
+    positions.high[pieces] = segments.length_high[segment];
+    positions.low[pieces] = segments.length_low[segment];
+    positions.error[pieces] = segments.error;
   }
   bool are_certain = true;
   for (unsigned long i = 0; i < pieces; i += width) {

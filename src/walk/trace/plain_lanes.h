@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "lane_lengths.h"
+#include "lane_functions.h"
 
 namespace cellwalk::detail {
 
@@ -19,6 +19,7 @@ struct Plain_lanes {
   static double load(const double* from) { return *from; }
   static void store(double* to, double x) { *to = x; }
   static double product_error(double a, double b, double) { return exact_product(a, b).low; }
+  static double multiply_add(double a, double b, double c) { return a * b + c; }
   static double square_root(double x) { return std::sqrt(x); }
   static double magnitude(double x) { return std::abs(x); }
   static void load(const Lane_plane* const planes[1], double* high, double* low) {
@@ -32,10 +33,8 @@ struct Plain_lanes {
   }
 };
 
-inline bool lengths_in_plain_lanes(const Lane_segment& segment, const Lane_crossings& crossings,
-                                   const Lane_positions& positions) {
-  return lengths_in_lanes<Plain_lanes>(segment, crossings, positions);
-}
+inline constexpr Lane_functions plain_lane_functions{&set_directions_in_lanes<Plain_lanes>,
+                                                     &measure_in_lanes<Plain_lanes>, nullptr, nullptr};
 
 }  // namespace cellwalk::detail
 

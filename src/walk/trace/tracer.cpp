@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Walks of many particles, some at a time, so that the processor finds the exits of several cells at once;
-// then the lengths of each. A motion that planes do not decide is walked and measured on its own.
+// Walks of many particles, then the lengths of each. A motion that planes do not decide is walked and
+// measured on its own.
 #include <cellwalk/internal/kernel/check_finite.h>
-#include <cellwalk/internal/walk/certified_exit.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/trace.h>
 
@@ -11,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "block_walk.h"
 #include "lane_planes.h"
 #include "piece_lengths.h"
 #include "plain_lanes.h"
@@ -29,127 +29,47 @@ void Traces::clear() {
 namespace detail {
 namespace {
 
-/// The function for this processor.
-Lane_lengths chosen_lengths() {
+/// The functions for this processor.
+const Lane_functions& chosen_functions() {
 #if defined(CELLWALK_HAS_FUSED_LANES)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &lengths_in_fused_lanes;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return fused_lane_functions;
 #endif
-  return &lengths_in_plain_lanes;
+  return plain_lane_functions;
 }
 
-/// The walk of a row, as far as planes decide it.
-struct Row_walk {
-  enum Verdict : std::uint8_t { arrived, blocked, undecided } verdict = undecided;
-  std::uint8_t slot = 0;             ///< whose half-facets are its own
-  std::uint32_t begin = 0, end = 0;  ///< of these: the facets met, the wall included
-  Cell cell = Cell::none;            ///< the last one
-};
-
-/// Walks that are under way at a time, and the rows that are walked before their lengths are computed.
-constexpr std::size_t most_slots = 4, rows_of_block = 256;
-
-/// The walks of a block of rows by planes alone.
-template <int D>
-class Block_walk {
+/// The segments of a block.
+class Block_segments {
  public:
-  explicit Block_walk(const Snapshot<D>& snapshot) : snapshot_(snapshot) {}
-
-  void run(std::span<const Particle<D>> particles, std::span<const Point<D>> targets) {
-    particles_ = particles;
-    targets_ = targets;
-    next_ = 0;
-    std::array<Slot, most_slots> slots;
-    std::size_t active = 0;
-    for (auto& met : met_) met.clear();
-    for (std::size_t i = 0; i < most_slots; ++i) {
-      slots[active].number = static_cast<std::uint8_t>(i);
-      if (starts(slots[active])) ++active;
+  explicit Block_segments(double error) : kept_(14 * stride) {
+    double* next = kept_.data();
+    const auto take = [&next] { return std::exchange(next, next + stride); };
+    for (int k = 0; k < 3; ++k) {
+      lanes_.from[k] = take();
+      lanes_.to[k] = take();
+      lanes_.direction_high[k] = take();
+      lanes_.direction_low[k] = take();
     }
-    if (snapshot_.uniform_blocks() == 1)
-      follow(slots, active, [&](const Slot& slot) {
-        return certified_exit<D>(*snapshot_.blocks(slot.cell), slot.line, slot.starts_inside);
-      });
-    else
-      follow(slots, active, [&](const Slot& slot) {
-        return exit_of_blocks(snapshot_, slot.cell, slot.line, slot.starts_inside);
-      });
+    lanes_.length_high = take();
+    lanes_.length_low = take();
+    lanes_.error = error;
   }
 
-  const Row_walk& row(std::size_t i) const { return rows_[i]; }
-  std::span<const Half_facet> met(const Row_walk& row) const {
-    return std::span(met_[row.slot]).subspan(row.begin, row.end - row.begin);
+  template <int D>
+  void set(std::span<const Particle<D>> particles, std::span<const Point<D>> targets,
+           const Lane_functions& functions) {
+    for (std::size_t k = 0; k < D; ++k)
+      for (std::size_t i = 0; i < particles.size(); ++i) {
+        lanes_.from[k][i] = particles[i].position[k];
+        lanes_.to[k][i] = targets[i][k];
+      }
+    functions.set_directions(lanes_, particles.size());
   }
+  const Lane_segments& lanes() const { return lanes_; }
 
  private:
-  struct Slot {
-    Frame_line<D> line{Float_point<D>{}, Float_point<D>{}};
-    Cell cell = Cell::none;
-    std::uint32_t row = 0, begin = 0;
-    bool starts_inside = false;
-    std::uint8_t number = 0;
-  };
-
-  /// Begins the next row that planes can decide; false if there is none.
-  bool starts(Slot& slot) {
-    for (; next_ < particles_.size(); ++next_) {
-      const Particle<D>& particle = particles_[next_];
-      rows_[next_] = {};
-      Float_point<D> a, b;
-      if (particle.cell == Cell::none || !snapshot_.frame().map(particle.position, a) ||
-          !snapshot_.frame().map(targets_[next_], b))
-        continue;
-      slot.line = Frame_line<D>(a, b);
-      slot.cell = particle.cell;
-      slot.starts_inside = particle.dimension == D;
-      slot.row = static_cast<std::uint32_t>(next_++);
-      slot.begin = static_cast<std::uint32_t>(met_[slot.number].size());
-      return true;
-    }
-    return false;
-  }
-
-  void end(const Slot& slot, Row_walk::Verdict verdict) {
-    rows_[slot.row] = {verdict, slot.number, slot.begin, static_cast<std::uint32_t>(met_[slot.number].size()),
-                       slot.cell};
-  }
-
-  template <class Find_exit>
-  void follow(std::array<Slot, most_slots>& slots, std::size_t active, Find_exit find_exit) {
-    const std::size_t limit = snapshot_.half_facet_slots();
-    while (active != 0) {
-      for (std::size_t i = 0; i < active;) {
-        Slot& slot = slots[i];
-        const Certified_exit exit = find_exit(slot);
-        if (exit.verdict == Certified_exit::leaves) [[likely]] {
-          const Half_facet f = Snapshot<D>::half_facet(slot.cell, exit.facet);
-          met_[slot.number].push_back(f);
-          if (!snapshot_.is_impassable(f)) [[likely]] {
-            slot.cell = snapshot_.neighbour(f);
-            slot.starts_inside = true;
-            ++i;
-            if (met_[slot.number].size() - slot.begin <= limit) continue;
-            --i;
-            end(slot, Row_walk::undecided);  // an exact walk will say that nothing was certified
-          } else {
-            end(slot, Row_walk::blocked);
-          }
-        } else {
-          end(slot, exit.verdict == Certified_exit::inside ? Row_walk::arrived : Row_walk::undecided);
-        }
-        if (!starts(slot)) {
-          std::swap(slot, slots[active - 1]);
-          --active;
-        }
-      }
-    }
-  }
-
-  const Snapshot<D>& snapshot_;
-  std::span<const Particle<D>> particles_;
-  std::span<const Point<D>> targets_;
-  std::size_t next_ = 0;
-  std::array<Row_walk, rows_of_block> rows_;
-  std::array<std::vector<Half_facet>, most_slots> met_;
+  static constexpr std::size_t stride = rows_of_block + 8;
+  std::vector<double> kept_;
+  Lane_segments lanes_{};
 };
 
 }  // namespace
@@ -160,7 +80,7 @@ struct Tracer<D>::Planes {
   const Snapshot<D>* snapshot;
   std::uint64_t epoch;
   detail::Lane_planes planes;
-  detail::Lane_lengths lengths;
+  const detail::Lane_functions& functions;
 };
 
 namespace {
@@ -169,68 +89,70 @@ namespace {
 template <int D>
 class Trace_call {
  public:
-  Trace_call(const Snapshot<D>& snapshot, const detail::Lane_planes& planes, detail::Lane_lengths lengths,
-             Traces& traces, Walk_counts& counts)
+  Trace_call(const Snapshot<D>& snapshot, const detail::Lane_planes& planes,
+             const detail::Lane_functions& functions, Traces& traces, Walk_counts& counts)
       : snapshot_(snapshot),
         planes_(planes),
-        lengths_(lengths),
+        functions_(functions),
         traces_(traces),
         counts_(counts),
-        walks_(snapshot) {}
+        walks_(snapshot, functions),
+        segments_(detail::lane_error * planes.size) {}
 
   /// Appends the rows, and returns the state of those particles that arrive, in order.
   std::vector<Particle<D>> run(std::span<const Particle<D>> particles, std::span<const Point<D>> targets) {
     std::vector<Particle<D>> moved(particles.begin(), particles.end());
     for (std::size_t begin = 0; begin < particles.size(); begin += detail::rows_of_block) {
       const std::size_t count = std::min(detail::rows_of_block, particles.size() - begin);
-      walks_.run(particles.subspan(begin, count), targets.subspan(begin, count));
-      for (std::size_t i = 0; i < count; ++i) append(walks_.row(i), targets[begin + i], moved[begin + i]);
+      const auto rows = particles.subspan(begin, count);
+      walks_.run(rows, targets.subspan(begin, count));
+      segments_.set<D>(rows, targets.subspan(begin, count), functions_);
+      for (std::size_t i = 0; i < count; ++i) append(i, targets[begin + i], moved[begin + i]);
     }
     return moved;
   }
 
  private:
-  void append(const detail::Row_walk& row, const Point<D>& target, Particle<D>& particle) {
+  /// \param i its number in the block
+  void append(std::size_t i, const Point<D>& target, Particle<D>& particle) {
+    const detail::Lane_row& row = walks_.row(i);
     Trace_end& end = traces_.ends.emplace_back();
     if (particle.cell == Cell::none)
       end.status = Walk_status::lost;
-    else if (row.verdict == detail::Row_walk::undecided || !append_certified(row, target, particle, end))
+    else if (row.verdict == detail::Lane_verdict::undecided || !append_certified(i, target, particle, end))
       append_exact(target, particle, end);
     traces_.offsets.push_back(traces_.cells.size());
     traces_.crossing_offsets.push_back(traces_.crossings.size());
   }
 
-  bool append_certified(const detail::Row_walk& row, const Point<D>& target, Particle<D>& particle,
-                        Trace_end& end) {
-    const std::span<const Half_facet> met = walks_.met(row);
-    const bool is_blocked = row.verdict == detail::Row_walk::blocked;
-    const std::size_t first = traces_.lengths.size(), pieces = met.size() + (is_blocked ? 0 : 1);
+  bool append_certified(std::size_t i, const Point<D>& target, Particle<D>& particle, Trace_end& end) {
+    const detail::Lane_row& row = walks_.row(i);
+    const std::span<const unsigned> met = walks_.met(row);
+    const bool is_blocked = row.verdict == detail::Lane_verdict::blocked;
+    const std::size_t pieces = met.size() + (is_blocked ? 0 : 1), passed = pieces - 1;
     constexpr std::size_t room = 8;  // that the function may write beyond
     if (high_.size() < pieces + 1 + room)
-      for (auto* buffer : {&high_, &low_, &error_}) buffer->resize(2 * (pieces + 1 + room));
-    traces_.lengths.resize(first + pieces + room);
-    detail::Lane_segment segment{{}, {}, detail::lane_error * planes_.size};
-    for (std::size_t k = 0; k < D; ++k) {
-      segment.from[k] = particle.position[k];
-      segment.to[k] = target[k];
-    }
-    const detail::Lane_crossings crossings{planes_.planes.data(), planes_.plane_of.data(),
-                                           reinterpret_cast<const unsigned*>(met.data()), met.size(),
-                                           is_blocked};
-    const bool are_certain = lengths_(
-        segment, crossings, {high_.data(), low_.data(), error_.data(), traces_.lengths.data() + first});
-    traces_.lengths.resize(first + (are_certain ? pieces : 0));
-    if (!are_certain) return false;
+      for (auto* buffer : {&high_, &low_, &error_, &length_}) buffer->resize(2 * (pieces + 1 + room));
+    const detail::Lane_crossings crossings{planes_.planes.data(), planes_.plane_of.data(), met.data(),
+                                           met.size(), is_blocked};
+    if (!functions_.measure(segments_.lanes(), i, crossings,
+                            {high_.data(), low_.data(), error_.data(), length_.data()}))
+      return false;
 
-    traces_.cells.push_back(particle.cell);
-    for (std::size_t i = 0; i + 1 < pieces; ++i) traces_.cells.push_back(snapshot_.neighbour(met[i]));
-    traces_.crossings.insert(traces_.crossings.end(), met.begin(), met.end() - (is_blocked ? 1 : 0));
+    const std::uint32_t* const links = snapshot_.links(Cell{0});  // of passable facets: the cells beyond
+    if (cells_.size() < pieces) cells_.resize(2 * pieces);
+    cells_[0] = particle.cell;
+    for (std::size_t k = 0; k < passed; ++k) cells_[k + 1] = Cell{links[met[k]]};
+    const auto* const facets = reinterpret_cast<const Half_facet*>(met.data());
+    traces_.crossings.insert(traces_.crossings.end(), facets, facets + passed);
+    traces_.cells.insert(traces_.cells.end(), cells_.data(), cells_.data() + pieces);
+    traces_.lengths.insert(traces_.lengths.end(), length_.data(), length_.data() + pieces);
     ++counts_.walks;
-    counts_.stays += pieces == 1 && !is_blocked;
-    counts_.crossings += pieces - 1;
-    end = {is_blocked ? Walk_status::contact : Walk_status::arrived, row.cell,
-           is_blocked ? met.back() : Half_facet::none};
-    if (!is_blocked) particle = {target, row.cell, D, pieces == 1 ? particle.aimed : std::uint16_t{0}};
+    counts_.stays += passed == 0 && !is_blocked;
+    counts_.crossings += passed;
+    end = {is_blocked ? Walk_status::contact : Walk_status::arrived, Cell{row.cell},
+           is_blocked ? Half_facet{met.back()} : Half_facet::none};
+    if (!is_blocked) particle = {target, end.cell, D, passed == 0 ? particle.aimed : std::uint16_t{0}};
     return true;
   }
 
@@ -257,12 +179,13 @@ class Trace_call {
 
   const Snapshot<D>& snapshot_;
   const detail::Lane_planes& planes_;
-  const detail::Lane_lengths lengths_;
+  const detail::Lane_functions& functions_;
   Traces& traces_;
   Walk_counts& counts_;
   detail::Block_walk<D> walks_;
-  std::vector<double> high_, low_, error_, piece_lengths_;
-  std::vector<Cell> visited_;
+  detail::Block_segments segments_;
+  std::vector<double> high_, low_, error_, length_, piece_lengths_;
+  std::vector<Cell> cells_, visited_;
   std::vector<Cell_exit> exits_;
 };
 
@@ -297,7 +220,7 @@ class Rows_kept {
 template <int D>
 Tracer<D>::Tracer(const Snapshot<D>& snapshot)
     : planes_(new Planes{&snapshot, snapshot.geometry_epoch(), detail::lane_planes(snapshot),
-                         detail::chosen_lengths()}) {}
+                         detail::chosen_functions()}) {}
 
 template <int D>
 Tracer<D>::~Tracer() = default;
@@ -321,7 +244,7 @@ void Tracer<D>::trace(std::span<Particle<D>> particles, std::span<const Point<D>
   }
   Rows_kept rows(traces);
   const auto moved =
-      Trace_call<D>(snapshot, planes_->planes, planes_->lengths, traces, counts).run(particles, targets);
+      Trace_call<D>(snapshot, planes_->planes, planes_->functions, traces, counts).run(particles, targets);
   rows.keep();
   std::copy(moved.begin(), moved.end(), particles.begin());
 }

@@ -11,6 +11,8 @@
 #include <cellwalk/loading/environment_file.h>
 #include <cellwalk/paper.h>
 #include <cellwalk/records/body_soup.h>
+#include <cellwalk/walk/tally.h>
+#include <cellwalk/walk/trace.h>
 
 #include <cstdio>
 #include <utility>
@@ -45,7 +47,8 @@ template <int D>
 void keep_environments() {
   keep(
       +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
-      &Locator<D>::particle_at, &Locator<D>::particles_at);
+      &Locator<D>::particle_at, &Locator<D>::particles_at, +[](const Snapshot<D>& s) { return Tracer<D>(s); },
+      &moved<Tracer<D>>, &Tracer<D>::trace);
   keep(+[](const Snapshot<D>& s, const Locator<D>& l, const Point<D>& x, Edge_counts& c) {
     return answer_move(s, l, x, x, Touch::pass, c);
   });

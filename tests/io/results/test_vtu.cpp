@@ -29,13 +29,37 @@ TEST(Vtu, CellsHaveTheirTypes) {
   soup.points.push_back({3, 0, 1});
   add_tetrahedron(soup, 1, 9, 10, 11);
   soup.solid[2] = 1;
+  add_prism(soup, {2, 10, 11, 3, 4, 5});
+  soup.add_facet({0, 1, 2, 3, 4});  // a pyramid over a pentagon is a polyhedron
+  for (std::uint32_t i = 0; i < 5; ++i) soup.add_facet({i, (i + 1) % 5, 8});
+  soup.end_cell();
   const Vtu_grid grid = vtu_of_cells(soup);
-  EXPECT_EQ(grid.types, (Byte_list{12, 42, 10}));
-  EXPECT_EQ(grid.connectivity,
-            (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 4, 7, 6, 5, 8, 1, 9, 10, 11}));
-  EXPECT_EQ(grid.offsets, (std::vector<std::int64_t>{8, 13, 17}));
-  EXPECT_EQ(grid.face_offsets, (std::vector<std::int64_t>{-1, 22, -1}));
-  EXPECT_EQ(std::get<1>(grid.cell_data[1].values), (std::vector<std::int64_t>{0, 0, 1}));
+  EXPECT_EQ(grid.types, (Byte_list{12, 14, 10, 13, 42}));
+  EXPECT_EQ(grid.connectivity, (std::vector<std::int64_t>{0,  1,  2, 3,  4,  5, 6, 7, 4, 5, 6, 7, 8, 1, 9,
+                                                          10, 11, 2, 11, 10, 3, 5, 4, 0, 1, 2, 3, 4, 8}));
+  EXPECT_EQ(grid.offsets, (std::vector<std::int64_t>{8, 13, 17, 23, 29}));
+  EXPECT_EQ(grid.face_offsets, (std::vector<std::int64_t>{-1, -1, -1, -1, 27}));
+  EXPECT_EQ(std::get<1>(grid.cell_data[1].values), (std::vector<std::int64_t>{0, 0, 1, 0, 0}));
+}
+
+TEST(Vtu, FacetsMayBeInAnyOrder) {
+  Cell_soup<3> soup;
+  soup.points.resize(6);
+  soup.add_facet({2, 0, 3, 5});
+  soup.add_facet({0, 1, 4, 3});
+  soup.add_facet({5, 3, 4});
+  soup.add_facet({1, 2, 5, 4});
+  soup.add_facet({0, 2, 1});
+  soup.end_cell();
+  soup.add_facet({0, 1, 4});
+  soup.add_facet({1, 2, 4});
+  soup.add_facet({0, 3, 2, 1});
+  soup.add_facet({2, 3, 4});
+  soup.add_facet({3, 0, 4});
+  soup.end_cell();
+  const Vtu_grid grid = vtu_of_cells(soup);
+  EXPECT_EQ(grid.types, (Byte_list{13, 14}));
+  EXPECT_EQ(grid.connectivity, (std::vector<std::int64_t>{5, 3, 4, 2, 0, 1, 0, 1, 2, 3, 4}));
 }
 
 TEST(Vtu, ACellOfSixQuadsThatIsNoHexahedronStaysAPolyhedron) {

@@ -26,6 +26,8 @@ enum class Vtu_cell : std::uint8_t {
   quad = 9,
   tetrahedron = 10,
   hexahedron = 12,
+  wedge = 13,
+  pyramid = 14,
   polyhedron = 42
 };
 
@@ -59,7 +61,8 @@ struct Vtu_grid {
 inline Point<3> in_space(const Point<2>& p) { return {p[0], p[1], 0}; }
 inline Point<3> in_space(const Point<3>& p) { return p; }
 
-/// The cells of a soup: tetrahedra and hexahedra as such, others as polyhedra, 2D cells as polygons.
+/// The cells of a soup: tetrahedra, pyramids, wedges and hexahedra as such, others as polyhedra, 2D cells as
+/// polygons.
 /// Cell data: `solid`, and `cell`, the index in the soup.
 template <int D>
 Vtu_grid vtu_of_cells(const Cell_soup<D>& soup);

@@ -18,6 +18,7 @@ template <int D, std::size_t N>
 struct Query_row {
   std::array<Point<D>, N> points{};
   double radius = 0;     ///< finite, at least 0
+  double weight = 1;     ///< in sums over rows; finite
   std::size_t line = 0;  ///< in the file, from 1
   std::string error;     ///< empty, or the reason why the row is invalid
 };

@@ -94,8 +94,10 @@ struct Times {
   Float4 lower, upper;
 };
 
+/// What the rounding of a time adds to its interval.
+inline constexpr float time_slack = 0x1p-20f;
+
 inline Times times(Float4 a, Float4 b) {
-  constexpr float time_slack = 0x1p-20f;
   const Float4 inverse = broadcast(1.0f) / (b - a);
   const Float4 time = -a * inverse, width = plane_error * inverse + broadcast(time_slack);
   return {time - width, time + width};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Private to io: the orientation of the facets of one polyhedron, which a file may give in any orientation.
-#ifndef CELLWALK_IO_MESH_POLYHEDRON_H
-#define CELLWALK_IO_MESH_POLYHEDRON_H
+// The orientation of the facets of one polyhedron, which files and arrays may give in any orientation.
+#ifndef CELLWALK_INTERNAL_IO_POLYHEDRON_H
+#define CELLWALK_INTERNAL_IO_POLYHEDRON_H
 
 #include <cellwalk/kernel/point.h>
 
@@ -18,4 +18,4 @@ bool turn_alike(std::vector<std::vector<std::uint32_t>>& loops, const std::vecto
 
 }  // namespace cellwalk::io
 
-#endif  // CELLWALK_IO_MESH_POLYHEDRON_H
+#endif  // CELLWALK_INTERNAL_IO_POLYHEDRON_H

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The walks of a block of rows as far as planes decide them, several at a time, so that the processor finds
+// the exits of several cells at once.
+#ifndef CELLWALK_WALK_TRACE_BLOCK_WALK_H
+#define CELLWALK_WALK_TRACE_BLOCK_WALK_H
+
+#include <cellwalk/environment/snapshot.h>
+#include <cellwalk/internal/walk/certified_exit.h>
+#include <cellwalk/walk/locate.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lane_functions.h"
+
+namespace cellwalk::detail {
+
+/// The walks of at most this many rows.
+inline constexpr std::size_t rows_of_block = 256;
+
+template <int D>
+class Block_walk {
+ public:
+  Block_walk(const Snapshot<D>& snapshot, const Lane_functions& functions)
+      : snapshot_(snapshot),
+        walk_in_lanes_(snapshot.uniform_blocks() != 1 ? nullptr
+                       : D == 2                       ? functions.walk_2
+                                                      : functions.walk_3) {
+    for (unsigned slot = 0; slot < lane_slots; ++slot) grow(slot);
+  }
+  Block_walk(const Block_walk&) = delete;
+  Block_walk& operator=(const Block_walk&) = delete;
+
+  /// \pre at most rows_of_block; cells exist
+  void run(std::span<const Particle<D>> particles, std::span<const Point<D>> targets) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const Particle<D>& particle = particles[i];
+      rows_[i] = {};
+      Float_point<D> from, to;
+      if (particle.cell == Cell::none || !snapshot_.frame().map(particle.position, from) ||
+          !snapshot_.frame().map(targets[i], to))
+        continue;
+      Lane_motion& motion = motions_[count++];
+      std::copy(from.begin(), from.end(), motion.from);
+      std::copy(to.begin(), to.end(), motion.to);
+      motion.cell = to_index(particle.cell);
+      motion.starts_inside = particle.dimension == D;
+      motion.row = &rows_[i];
+    }
+    for (Lane_met& met : met_) met.count = 0;
+    if (count == 0) return;
+    if (walk_in_lanes_)
+      in_lanes(count);
+    else if (snapshot_.uniform_blocks() == 1)
+      one_by_one(count, [&](const Slot& slot) {
+        return certified_exit<D>(*snapshot_.blocks(slot.cell), slot.line, slot.starts_inside);
+      });
+    else
+      one_by_one(count, [&](const Slot& slot) {
+        return exit_of_blocks(snapshot_, slot.cell, slot.line, slot.starts_inside);
+      });
+  }
+
+  const Lane_row& row(std::size_t i) const { return rows_[i]; }
+  /// The facets that a row met.
+  std::span<const unsigned> met(const Lane_row& row) const {
+    return {met_[row.slot].half_facet + row.begin, met_[row.slot].half_facet + row.end};
+  }
+
+ private:
+  struct Slot {
+    Frame_line<D> line{Float_point<D>{}, Float_point<D>{}};
+    const Lane_motion* motion = nullptr;
+    Cell cell = Cell::none;
+    unsigned begin = 0;
+    bool starts_inside = false;
+    unsigned char number = 0;
+  };
+
+  void grow(unsigned slot) {
+    kept_[slot].resize(std::max<std::size_t>(1024, 2 * kept_[slot].size()));
+    met_[slot].half_facet = kept_[slot].data();
+    met_[slot].room = kept_[slot].size();
+  }
+
+  void in_lanes(std::size_t count) {
+    static_assert(sizeof(Plane_block<D>) == 4 * (D + 1) * sizeof(float));
+    walk_in_lanes_({reinterpret_cast<const float*>(snapshot_.blocks(Cell{0})), snapshot_.links(Cell{0}),
+                    plane_error, time_slack, motions_.data(), count, snapshot_.half_facet_slots(),
+                    met_.data(),
+                    [](void* owner, unsigned slot) { static_cast<Block_walk*>(owner)->grow(slot); }, this});
+  }
+
+  template <class Find_exit>
+  void one_by_one(std::size_t count, Find_exit find_exit) {
+    std::array<Slot, 4> slots;
+    std::size_t next = 0, active = 0;
+    const auto start = [&](Slot& slot) {
+      if (next == count) return false;
+      const Lane_motion& motion = motions_[next++];
+      Float_point<D> from, to;
+      std::copy_n(motion.from, D, from.begin());
+      std::copy_n(motion.to, D, to.begin());
+      slot.line = Frame_line<D>(from, to);
+      slot.motion = &motion;
+      slot.cell = Cell{motion.cell};
+      slot.starts_inside = motion.starts_inside;
+      slot.begin = static_cast<unsigned>(met_[slot.number].count);
+      return true;
+    };
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      slots[active].number = static_cast<unsigned char>(i);
+      if (start(slots[active])) ++active;
+    }
+    while (active != 0)
+      for (std::size_t i = 0; i < active;) {
+        Slot& slot = slots[i];
+        const Certified_exit exit = find_exit(slot);
+        Lane_met& met = met_[slot.number];
+        Lane_verdict verdict =
+            exit.verdict == Certified_exit::inside ? Lane_verdict::arrived : Lane_verdict::undecided;
+        if (exit.verdict == Certified_exit::leaves) {
+          const Half_facet f = Snapshot<D>::half_facet(slot.cell, exit.facet);
+          met.half_facet[met.count++] = to_index(f);
+          if (met.count == met.room) grow(slot.number);
+          const bool is_blocked = snapshot_.is_impassable(f);
+          if (!is_blocked && met.count - slot.begin <= snapshot_.half_facet_slots()) {
+            slot.cell = snapshot_.neighbour(f);
+            slot.starts_inside = true;
+            ++i;
+            continue;
+          }
+          if (is_blocked) verdict = Lane_verdict::blocked;
+        }
+        *slot.motion->row = {verdict, slot.number, slot.begin, static_cast<unsigned>(met.count),
+                             to_index(slot.cell)};
+        if (!start(slot)) std::swap(slot, slots[--active]);
+      }
+  }
+
+  const Snapshot<D>& snapshot_;
+  const Lane_walk walk_in_lanes_;  ///< if any
+  std::array<Lane_row, rows_of_block> rows_;
+  std::array<Lane_motion, rows_of_block> motions_;
+  std::array<std::vector<unsigned>, lane_slots> kept_;
+  std::array<Lane_met, lane_slots> met_{};
+};
+
+}  // namespace cellwalk::detail
+
+#endif  // CELLWALK_WALK_TRACE_BLOCK_WALK_H

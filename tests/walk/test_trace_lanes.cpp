@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The lengths that lanes compute, by the arithmetic of each kind of processor, against those that are rounded
+// exactly; and that an error bound that is too small for the question leaves it open.
+#include <cellwalk/generators/grid.h>
+#include <cellwalk/internal/environment/gluing.h>
+#include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/walk/trace.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "walk/trace/lane_planes.h"
+#include "walk/trace/piece_lengths.h"
+#include "walk/trace/plain_lanes.h"
+
+namespace cellwalk {
+namespace {
+
+struct Kind {
+  const char* name;
+  const detail::Lane_functions& functions;
+};
+
+std::vector<Kind> kinds() {
+  std::vector<Kind> kinds{{"plain", detail::plain_lane_functions}};
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    kinds.push_back({"fused", detail::fused_lane_functions});
+#endif
+  return kinds;
+}
+
+/// A segment in lanes, and the pieces that it was divided into.
+class Measured {
+ public:
+  Measured(const Point<3>& from, const Point<3>& to, const detail::Lane_planes& planes,
+           const std::vector<unsigned>& met, double error, const detail::Lane_functions& functions)
+      : length(met.size() + room) {
+    std::vector<double> kept(14 * room), high(length.size()), low(length.size()), bound(length.size());
+    detail::Lane_segments segments{};
+    double* next = kept.data();
+    for (int k = 0; k < 3; ++k)
+      for (double** array :
+           {&segments.from[k], &segments.to[k], &segments.direction_high[k], &segments.direction_low[k]})
+        *array = std::exchange(next, next + room);
+    segments.length_high = std::exchange(next, next + room);
+    segments.length_low = next;
+    segments.error = error;
+    for (std::size_t k = 0; k < 3; ++k) {
+      *segments.from[k] = from[k];
+      *segments.to[k] = to[k];
+    }
+    functions.set_directions(segments, 1);
+    is_certain = functions.measure(
+        segments, 0, {planes.planes.data(), planes.plane_of.data(), met.data(), met.size(), false},
+        {high.data(), low.data(), bound.data(), length.data()});
+    length.resize(met.size() + 1);
+  }
+
+  std::vector<double> length;
+  bool is_certain = false;
+
+ private:
+  static constexpr std::size_t room = 16;
+};
+
+class TraceLanes : public testing::Test {
+ protected:
+  TraceLanes() : snapshot_(make_snapshot()), locator_(snapshot_), planes_(detail::lane_planes(snapshot_)) {}
+
+  static Snapshot<3> make_snapshot() {
+    Simplex_grid_options<3> options;
+    options.cells = Grid_options<3>::filled(6);
+    options.jitter = 0.12;
+    const Cell_soup<3> soup = tetrahedral_grid(options);
+    return Snapshot<3>::compile(soup, glue(soup));
+  }
+
+  Point<3> any_point() {
+    Point<3> p;
+    for (double& x : p) x = random_.real(0.5, 5.5);
+    return p;
+  }
+
+  Random random_{3};
+  const Snapshot<3> snapshot_;
+  const Locator<3> locator_;
+  const detail::Lane_planes planes_;
+};
+
+TEST_F(TraceLanes, AreRoundedToNearestByEveryKindOfProcessor) {
+  const double error = detail::lane_error * planes_.size;
+  std::size_t motions = 0, pieces = 0;
+  while (motions < 2000) {
+    const auto particle = locator_.particle_at(any_point());
+    const Point<3> to = any_point();
+    std::vector<Cell> visited;
+    std::vector<Half_facet> crossed;
+    std::vector<Cell_exit> exits;
+    Walk_counts counts;
+    Walk_options options{&visited, &crossed};
+    options.exits = &exits;
+    if (walk(snapshot_, *particle, to, counts, options).contact) continue;
+    std::vector<double> exact;
+    detail::append_lengths(snapshot_, particle->position, to, exits, visited.size(), exact);
+    std::vector<unsigned> met;
+    for (const Half_facet f : crossed) met.push_back(to_index(f));
+    for (const Kind& kind : kinds()) {
+      const Measured measured(particle->position, to, planes_, met, error, kind.functions);
+      ASSERT_TRUE(measured.is_certain) << kind.name;
+      ASSERT_EQ(measured.length, exact) << kind.name;
+    }
+    ++motions;
+    pieces += exact.size();
+  }
+  EXPECT_GT(pieces, 10 * motions);
+}
+
+TEST_F(TraceLanes, LeaveLengthsOpenThatTheirErrorsDoNotRound) {
+  const auto particle = locator_.particle_at({1.03, 1.02, 1.01});
+  const Point<3> to{5.1, 4.9, 4.2};
+  std::vector<Half_facet> crossed;
+  Walk_counts counts;
+  ASSERT_EQ(walk(snapshot_, *particle, to, counts, {nullptr, &crossed}).status, Walk_status::arrived);
+  std::vector<unsigned> met;
+  for (const Half_facet f : crossed) met.push_back(to_index(f));
+  ASSERT_GT(met.size(), 8u);
+  detail::Lane_planes unknown = planes_;
+  unknown.plane_of[met[5]] = 0;  // the plane that is not known
+  const double error = detail::lane_error * planes_.size;
+  for (const Kind& kind : kinds()) {
+    EXPECT_TRUE(Measured(particle->position, to, planes_, met, error, kind.functions).is_certain);
+    EXPECT_FALSE(Measured(particle->position, to, planes_, met, 0x1p-50, kind.functions).is_certain)
+        << kind.name;
+    EXPECT_FALSE(Measured(particle->position, to, unknown, met, error, kind.functions).is_certain)
+        << kind.name;
+    EXPECT_FALSE(Measured(to, to, planes_, {}, error, kind.functions).is_certain) << kind.name;
+    std::vector<unsigned> swapped = met;
+    std::swap(swapped[3], swapped[4]);  // a piece of negative length
+    EXPECT_FALSE(Measured(particle->position, to, planes_, swapped, error, kind.functions).is_certain)
+        << kind.name;
+  }
+}
+
+}  // namespace
+}  // namespace cellwalk
