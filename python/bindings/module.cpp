@@ -100,6 +100,7 @@ PYBIND11_MODULE(_cellwalk, module) {
   bind_environment(module);
   bind_particles(module);
   bind_bodies(module);
+  bind_traces(module);
   module.def("build_features", build_features,
              "The optional parts of this build by name, and whether it has them.");
   refuse_objects_without_value(module);

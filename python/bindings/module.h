@@ -11,6 +11,8 @@ void bind_environment(pybind11::module_& module);
 void bind_motions(pybind11::module_& module);
 void bind_particles(pybind11::module_& module);
 void bind_bodies(pybind11::module_& module);
+/// Adds to the classes Environment and Particles.
+void bind_traces(pybind11::module_& module);
 
 }  // namespace cellwalk::python
 

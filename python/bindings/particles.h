@@ -35,6 +35,8 @@ class Particles {
 
   const Held_world& environment() const { return environment_; }
   std::shared_ptr<const Any_world> world() const { return environment_->world; }
+  /// Held while they move.
+  std::mutex& moving() const { return *moving_; }
   /// For pickles: the environment, the positions, and where they are located.
   py::tuple state() const;
   /// \throw py::value_error if it is none, or a particle does not lie in its cell

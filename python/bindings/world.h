@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include "tracing.h"
 #include "turn_lock.h"
 
 namespace cellwalk::python {
@@ -76,6 +77,9 @@ class World {
     Groups<D> groups() const { return world_.groups_.now(snapshot()); }
     /// Made anew if points moved since the last one. Not to be called from tasks of oneTBB.
     const Locator<D>& locator() const { return world_.current_locator(); }
+    /// Made at the first trace, and anew if points moved since the last one. Not to be called from tasks of
+    /// oneTBB.
+    const Tracing<D>& tracing() const { return world_.current_tracing(); }
     /// Of the environment as it is: certified again if points moved.
     const Certificate& certificate() const { return world_.current_certificate(); }
 
@@ -206,6 +210,17 @@ class World {
     return *locator_;
   }
 
+  const Tracing<D>& current_tracing() const {
+    const std::lock_guard making(making_);
+    const std::uint64_t now = environment_.snapshot().geometry_epoch();
+    if (!tracing_ || traced_ != now) {
+      tracing_.reset();
+      tracing_.emplace(environment_.snapshot());
+      traced_ = now;
+    }
+    return *tracing_;
+  }
+
   const Certificate& current_certificate() const {
     const std::lock_guard making(making_);
     const std::uint64_t now = environment_.snapshot().epoch();
@@ -225,6 +240,8 @@ class World {
   mutable std::uint64_t certified_;  ///< the epoch of the certificate
   mutable std::optional<Locator<D>> locator_;
   mutable std::uint64_t located_;  ///< the geometry epoch of the locator
+  mutable std::optional<Tracing<D>> tracing_;
+  mutable std::uint64_t traced_ = 0;  ///< its geometry epoch
   /// The points that Python sees, once requested: edits may move those of the environment in memory.
   mutable std::shared_ptr<std::vector<Point<D>>> shown_;
   mutable std::uint64_t shown_at_ = 0;  ///< their geometry epoch

@@ -11,6 +11,8 @@ status_names: tuple[str, ...]
 _Path = Union[str, bytes, os.PathLike[str], os.PathLike[bytes]]
 # Types, each with integers (K, k), or of polyhedra with lists of faces: pairs, or with the members `type` and `data`.
 _CellBlocks = Union[Mapping[str, Any], Mapping[int, Any], Sequence[Any]]
+_Walls = Union[str, ArrayLike]
+_Sums = Union[NDArray[numpy.float64], None]
 _Touch = Literal["pass", "stop"]
 _Sweep = Literal["three_segments", "triangle", "faces"]
 _Search = Literal["exact", "dichotomic", "dichotomic_segment", "exhaustive"]
@@ -46,6 +48,30 @@ class Locations:
     def dimension(self) -> NDArray[numpy.uint8]: ...
     @property
     def sides(self) -> NDArray[numpy.uint32]: ...
+    def __len__(self) -> int: ...
+
+@final
+class Traces:
+    @property
+    def offsets(self) -> NDArray[numpy.int64]: ...
+    @property
+    def cells(self) -> NDArray[numpy.int32]: ...
+    @property
+    def lengths(self) -> NDArray[numpy.float64]: ...
+    @property
+    def surface_offsets(self) -> NDArray[numpy.int64]: ...
+    @property
+    def surfaces(self) -> NDArray[numpy.int32]: ...
+    @property
+    def forward(self) -> NDArray[numpy.bool_]: ...
+    @property
+    def heading(self) -> NDArray[numpy.float64]: ...
+    @property
+    def wall(self) -> NDArray[numpy.int32]: ...
+    @property
+    def status(self) -> NDArray[numpy.uint8]: ...
+    @property
+    def cell(self) -> NDArray[numpy.int32]: ...
     def __len__(self) -> int: ...
 
 @final
@@ -242,42 +268,24 @@ class Environment:
     def to_arrays(self) -> MeshArrays: ...
     def locate(self, points: ArrayLike, *, threads: int = 0) -> Locations: ...
     def walk(
-        self,
-        starts: ArrayLike,
-        targets: ArrayLike,
-        *,
-        touch: _Touch = "pass",
-        kernel: Literal["exact", "lazy", "double", "float"] = "exact",
-        radius: ArrayLike = 0.0,
-        threads: int = 0,
+        self, starts: ArrayLike, targets: ArrayLike, *, touch: _Touch = "pass",
+        kernel: Literal["exact", "lazy", "double", "float"] = "exact", radius: ArrayLike = 0.0, threads: int = 0
     ) -> Motions: ...
     def sweep(
-        self,
-        p: ArrayLike,
-        targets: ArrayLike,
-        q: ArrayLike,
-        *,
-        sweep: _Sweep = "triangle",
-        touch: _Touch = "pass",
-        search: _Search = "exact",
-        search_cells: Literal["flooded", "traversed"] = "flooded",
-        tolerance: float = ...,
-        search_limit: Literal["below", "none"] = "below",
-        radius: ArrayLike = 0.0,
-        threads: int = 0,
+        self, p: ArrayLike, targets: ArrayLike, q: ArrayLike, *, sweep: _Sweep = "triangle", touch: _Touch = "pass",
+        search: _Search = "exact", search_cells: Literal["flooded", "traversed"] = "flooded",
+        tolerance: float = ..., search_limit: Literal["below", "none"] = "below", radius: ArrayLike = 0.0,
+        threads: int = 0
     ) -> Motions: ...
+    def trace(self, origins: ArrayLike, ends: ArrayLike, *, threads: int = 0) -> Traces: ...
+    def tally(
+        self, origins: ArrayLike, ends: ArrayLike, *, weights: Union[ArrayLike, None] = None, out: _Sums = None, threads: int = 0
+    ) -> NDArray[numpy.float64]: ...
+    def facet_rows(self, facets: ArrayLike) -> NDArray[numpy.int32]: ...
     def reshape(
-        self,
-        points: ArrayLike,
-        targets: ArrayLike,
-        *,
-        bodies: Iterable[Body] = (),
-        particles: Iterable[Particles] = (),
-        at_contact: Literal["stop", "hold", "push", "test"] = "stop",
-        most_rounds: int = 8,
-        most_pushes: int = 16,
-        sweep: _Sweep = "triangle",
-        most_contacts: int = 4,
+        self, points: ArrayLike, targets: ArrayLike, *, bodies: Iterable[Body] = (),
+        particles: Iterable[Particles] = (), at_contact: Literal["stop", "hold", "push", "test"] = "stop",
+        most_rounds: int = 8, most_pushes: int = 16, sweep: _Sweep = "triangle", most_contacts: int = 4
     ) -> WallMoves: ...
     def editing(self, *, bodies: Iterable[Body] = (), particles: Iterable[Particles] = ()) -> Edits: ...
     def facets(self) -> NDArray[numpy.void]: ...
@@ -311,6 +319,14 @@ class Particles:
         at_contact: Literal["stay", "stop"] = "stay",
         threads: int = 0,
     ) -> Motions: ...
+    def trace(
+        self, targets: ArrayLike, *, reflect: Sequence[_Walls] = (), periodic: Sequence[Sequence[_Walls]] = (),
+        most_bounces: int = 1000, threads: int = 0
+    ) -> Traces: ...
+    def tally(
+        self, targets: ArrayLike, *, weights: Union[ArrayLike, None] = None, out: _Sums = None, reflect: Sequence[_Walls] = (),
+        periodic: Sequence[Sequence[_Walls]] = (), most_bounces: int = 1000, threads: int = 0
+    ) -> NDArray[numpy.float64]: ...
     def locate_again(self, *, threads: int = 0) -> None: ...
     def __len__(self) -> int: ...
 
