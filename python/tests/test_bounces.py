@@ -111,7 +111,7 @@ class BouncingGroups(unittest.TestCase):
                 (TypeError, "reflect must be a list of groups", {"reflect": "plates"}),
                 (TypeError, "periodic must be a list of pairs of groups", {"periodic": ["left", "right"]}),
                 (TypeError, "periodic must be a list of pairs of groups", {"periodic": [("left",)]}),
-                (TypeError, "reflect must be an integer array", {"reflect": [1.5]}),
+                (TypeError, "reflect must be integers", {"reflect": [1.5]}),
                 (cellwalk.UsageError, "most_bounces takes a number from 0, not -1", {"reflect": ["plates"], "most_bounces": -1})):
             for call in (particles.trace, particles.tally):
                 with self.assertRaisesRegex(error, message):
