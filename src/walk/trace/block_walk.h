@@ -43,9 +43,9 @@ class Block_walk {
       const Particle<D>& particle = particles[i];
       rows_[i] = {};
       Float_point<D> from, to;
-      if (particle.cell == Cell::none || !snapshot_.frame().map(particle.position, from) ||
-          !snapshot_.frame().map(targets[i], to))
-        continue;
+      if (particle.cell == Cell::none || !snapshot_.frame().map(particle.position, from)) continue;
+      is_cut_[i] = !snapshot_.frame().map(targets[i], to);
+      if (is_cut_[i] && !snapshot_.frame().map(within_frame(particle.position, targets[i]), to)) continue;
       Lane_motion& motion = motions_[count++];
       std::copy(from.begin(), from.end(), motion.from);
       std::copy(to.begin(), to.end(), motion.to);
@@ -65,6 +65,8 @@ class Block_walk {
       one_by_one(count, [&](const Slot& slot) {
         return exit_of_blocks(snapshot_, slot.cell, slot.line, slot.starts_inside);
       });
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      if (is_cut_[i] && rows_[i].verdict == Lane_verdict::arrived) rows_[i].verdict = Lane_verdict::undecided;
   }
 
   const Lane_row& row(std::size_t i) const { return rows_[i]; }
@@ -82,6 +84,19 @@ class Block_walk {
     bool starts_inside = false;
     unsigned char number = 0;
   };
+
+  /// A point at which the way from a point of the frame to one outside is about to leave it. It is off the
+  /// way by some units in the last place of a double, which the error of the planes covers.
+  Point<D> within_frame(const Point<D>& from, const Point<D>& to) const {
+    const Plane_frame<D>& frame = snapshot_.frame();
+    double share = 1;
+    for (std::size_t k = 0; k < D; ++k) {
+      const double step = to[k] - from[k];
+      const double limit = frame.centre[k] + (step < 0 ? -1 : 1) / frame.scale;
+      if (step != 0) share = std::min(share, (limit - from[k]) / step);
+    }
+    return from + (share * (1 - 0x1p-30)) * (to - from);
+  }
 
   void grow(unsigned slot) {
     kept_[slot].resize(std::max<std::size_t>(1024, 2 * kept_[slot].size()));
@@ -147,6 +162,7 @@ class Block_walk {
   const Snapshot<D>& snapshot_;
   const Lane_walk walk_in_lanes_;  ///< if any
   std::array<Lane_row, rows_of_block> rows_;
+  std::array<bool, rows_of_block> is_cut_{};  ///< the motion is walked to the border of the frame only
   std::array<Lane_motion, rows_of_block> motions_;
   std::array<std::vector<unsigned>, lane_slots> kept_;
   std::array<Lane_met, lane_slots> met_{};

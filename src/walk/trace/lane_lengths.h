@@ -5,15 +5,15 @@
 //
 // Let e be the unit direction of the segment from a. It meets the plane n.x = o at s = (o - n.a) / (n.e).
 //
-// Bound, with u = 2^-53 and M at least the size of every coordinate. A stored plane is that of a facet,
-// scaled so that no component of n is above 1. The errors of the components are at most 2^11 u^2, and o = n.p
-// for a corner p of the facet, within 2^6 u^2 M. Hence o - n.a = n.(p - a) is off by at most 3 2^11 u^2 2M +
-// 2^6 u^2 M, and by 2^8 u^2 M more as it is computed, in all by less than 2^14 u^2 M; n.e by 3 2^11 u^2 and,
-// since e is known within 2^6 u^2, by 2^9 u^2 more, in all by less than 2^13 u^2. As s is at most 2 sqrt(3)
-// M, it is within (2^14 + 3.5 2^13) u^2 M / |n.e|; the division adds less than 2^8 u^2 M / |n.e|. Together
-// that is less than 2^16 u^2 M / |n.e|. The unit of errors is twice as much, for terms of higher order, for 1
-// / (n.e), which is rounded, and for the rounding of the difference of two positions. The length of the
-// segment itself is known within 2^6 u^2 M.
+// Bound, with u = 2^-53 and M at least the size of every coordinate of the start and of facets. A stored
+// plane is that of a facet, scaled so that no component of n is above 1. The errors of the components are at
+// most 2^11 u^2, and o = n.p for a corner p of the facet, within 2^6 u^2 M. Hence o - n.a = n.(p - a) is off
+// by at most 3 2^11 u^2 2M + 2^6 u^2 M, and by 2^8 u^2 M more as it is computed, in all by less than 2^14 u^2
+// M; n.e by 3 2^11 u^2 and, since e is known within 2^6 u^2, by 2^9 u^2 more, in all by less than 2^13 u^2.
+// As s is at most 2 sqrt(3) M, it is within (2^14 + 3.5 2^13) u^2 M / |n.e|; the division adds less than 2^8
+// u^2 M / |n.e|. Together that is less than 2^16 u^2 M / |n.e|. The unit of errors is twice as much, for
+// terms of higher order, for 1 / (n.e), which is rounded, and for the rounding of the difference of two
+// positions. The length of the segment itself is known within 2^6 u^2 M.
 #ifndef CELLWALK_WALK_TRACE_LANE_LENGTHS_H
 #define CELLWALK_WALK_TRACE_LANE_LENGTHS_H
 

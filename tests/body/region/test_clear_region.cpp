@@ -309,11 +309,11 @@ void expect_not_held(double outside) {
     ASSERT_TRUE(box.holds_all(points));
     for (Point<D>& x : points)
       for (double& c : x) {
-        const double before = std::exchange(c, outside);
+        const double kept = std::exchange(c, outside);
         EXPECT_FALSE(box.holds(x)) << outside;
         EXPECT_FALSE(box.holds_all(points)) << outside << " among " << count;
         ++refused;
-        c = before;
+        c = kept;
       }
   }
   EXPECT_EQ(refused, 78 * D);

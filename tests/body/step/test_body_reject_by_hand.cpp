@@ -103,13 +103,14 @@ TEST(BodyReject, EdgesThatGoRoundAreToldAndMove) {
   // From in front of the membrane, in its line: the edge sweeps over it, and lies below it then.
   const Body_soup<2> round{{{5.5, 2.5}, {2.5, 2}}, {{0, 1}}, {}};
   // From below: the membrane is between where the vertex goes.
-  const Body_soup<2> below{{{0.5, 1.5}, {4, 1.5}}, {{0, 1}}, {}};
+  const Body_soup<2> from_below{{{0.5, 1.5}, {4, 1.5}}, {{0, 1}}, {}};
   for (const Touch touch : {Touch::pass, Touch::stop})
     for (const Sweep sweep : {Sweep::three_segments, Sweep::triangle, Sweep::faces}) {
       const std::uint64_t swept = sweep != Sweep::three_segments;
       EXPECT_EQ(blocked_sets(snapshot, round, {5.5, 1.5}, sweep, touch), (Blocked_sets{false, 0, swept}));
-      EXPECT_EQ(blocked_sets(snapshot, below, {2.5, 3.5}, sweep, touch), (Blocked_sets{false, 1, swept}));
-      Body<2> body(snapshot, Locator<2>(snapshot), below);
+      EXPECT_EQ(blocked_sets(snapshot, from_below, {2.5, 3.5}, sweep, touch),
+                (Blocked_sets{false, 1, swept}));
+      Body<2> body(snapshot, Locator<2>(snapshot), from_below);
       Body_counts counts;
       const auto [contacts, blocked] =
           reject<2>(body, std::vector<Point<2>>{{2.5, 3.5}, {4, 1.5}}, rejecting(sweep, touch, true), counts);

@@ -99,7 +99,9 @@ TEST_F(QueryTrace, SumsUpTheSameForAnyThreads) {
       }
     }
     EXPECT_GT(free, 1000u);
-    if (dimension == 3) EXPECT_GT(blocked, 1000u);
+    if (dimension == 3) {
+      EXPECT_GT(blocked, 1000u);
+    }
   }
 }
 
