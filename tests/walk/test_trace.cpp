@@ -72,7 +72,7 @@ Batch<D> make_batch(const World<D>& world, const Locator<D>& locator, std::uint6
     if (sides.empty()) sides.push_back({start});
     batch.particles.push_back(sides[source.random().below(sides.size())]);
     Point<D> target = source.target(kind, start, last);
-    if (batch.particles.size() % 8 == 0) target = start + 64.0 * (target - start);  // far out of the frame
+    if (batch.particles.size() % 64 == 0) target = start + 64.0 * (target - start);  // far out of the frame
     batch.targets.push_back(target);
     last = start;
   }

@@ -3,6 +3,8 @@
 #ifndef CELLWALK_WALK_TALLY_H
 #define CELLWALK_WALK_TALLY_H
 
+#include <cellwalk/kernel/point.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -52,7 +52,7 @@ TEST_F(QueryTrace, GivesTheCellsAndTheLengths) {
       "-1,0.5,0.5,0.5\n"   // from outside
       "1,0.5,2,0.5\n",     // from one side of a cell to the other
       {"--trace", "pieces.csv"});
-  const std::string diagonal = "0.70710678118654757", twice = "1.4142135623730951";
+  const std::string diagonal = "0.7071067811865476", twice = "1.4142135623730951";
   const std::vector<Row> rows = pieces();
   const std::vector<Row> expected{{"0", "0", "0.5"},    {"0", "1", "1"},      {"0", "2", "1"},
                                   {"0", "3", "0.5"},    {"1", "0", diagonal}, {"1", "5", twice},

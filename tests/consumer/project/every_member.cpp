@@ -2,6 +2,7 @@
 // Every public member of the classes and every function that headers declare `extern template`, so that a
 // program which inlines nothing links. check_members.py sees that none is missing. Nothing is run.
 #include <cellwalk/body/body.h>
+#include <cellwalk/body/boundary_tracer.h>
 #include <cellwalk/cellwalk.h>
 #include <cellwalk/environment/compiled.h>
 #include <cellwalk/environment/map_edit.h>
@@ -49,6 +50,7 @@ void keep_environments() {
       +[](const Snapshot<D>& s) { return Locator<D>(s); }, &moved<Locator<D>>, &Locator<D>::locate,
       &Locator<D>::particle_at, &Locator<D>::particles_at, +[](const Snapshot<D>& s) { return Tracer<D>(s); },
       &moved<Tracer<D>>, &Tracer<D>::trace);
+  keep(&Boundary_tracer<D>::reflect, &Boundary_tracer<D>::join, &Boundary_tracer<D>::trace);
   keep(+[](const Snapshot<D>& s, const Locator<D>& l, const Point<D>& x, Edge_counts& c) {
     return answer_move(s, l, x, x, Touch::pass, c);
   });

@@ -265,7 +265,7 @@ TEST(VtuWriter, VtkReadsWhatIsWritten) {
       EXPECT_EQ(p, soup.points[static_cast<std::size_t>(i)]);
     }
     EXPECT_EQ(found->GetCellType(0), VTK_HEXAHEDRON);
-    EXPECT_EQ(found->GetCellType(1), VTK_POLYHEDRON);
+    EXPECT_EQ(found->GetCellType(1), VTK_WEDGE);
     EXPECT_EQ(found->GetCellType(3), VTK_TETRA);
     EXPECT_EQ(found->GetCell(1)->GetNumberOfFaces(), 5);
     EXPECT_EQ(found->GetCell(1)->GetNumberOfPoints(), 6);
