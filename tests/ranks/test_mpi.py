@@ -56,7 +56,8 @@ class Commands(Program):
         self.succeed(1, "generate", "tets", "--cells", "6", "5", "4", "--jitter", "0.1", "-o", "env.ovm")
         self.write_table("moves.csv", ["ax", "ay", "az", "bx", "by", "bz"], 1501, (6, 5, 4))
         self.write_table("sweeps.csv", ["px", "py", "pz", "tx", "ty", "tz", "qx", "qy", "qz"], 400, (6, 5, 4))
-        for table, options in (("moves.csv", ["--record", "row.json", "--row", "700"]), ("sweeps.csv", ["--mode", "sweep"])):
+        moves = ["--record", "row.json", "--row", "700", "--trace", "pieces.csv", "--tally", "cells.vtu"]
+        for table, options in (("moves.csv", moves), ("sweeps.csv", ["--mode", "sweep"])):
             expected = None
             for ranks, threads in SHARES:
                 with self.subTest(table=table, ranks=ranks, threads=threads):
@@ -67,6 +68,8 @@ class Commands(Program):
                     self.assertEqual(found, expected)
             self.assertIn("; rows marked invalid: ", expected[2])
             self.assertGreater(expected[0]["out.csv"].count(b"contact"), 50)
+            self.assertGreater(expected[0]["pieces.csv"].count(b"\n"), 3000)
+            self.assertIn(b"track_length", expected[0]["cells.vtu"])
 
     def test_query_of_fewer_rows_than_ranks(self):
         self.succeed(1, "generate", "squares", "--cells", "4", "-o", "flat.ovm")

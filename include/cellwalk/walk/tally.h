@@ -22,7 +22,7 @@ class Tally {
 
   /// Adds a value to the sum of a cell; what lies below 2^-94 of the bound is rounded.
   /// \pre cell < size(), |value| <= largest; at most 2^32 values are added to a cell
-  /// Cost: 2 ns.
+  /// Cost: 4 ns.
   void add(std::size_t cell, double value);
   /// Adds the sums of another tally.
   /// \throw Error(usage) unless it has as many cells and the same bound

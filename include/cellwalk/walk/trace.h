@@ -45,7 +45,7 @@ struct Traces {
 template <int D>
 class Tracer {
  public:
-  /// Cost: about 0.1 us and 64 bytes a facet.
+  /// Cost: about 0.5 us and 64 bytes a facet.
   explicit Tracer(const Snapshot<D>& snapshot);
   explicit Tracer(const Snapshot<D>&& snapshot) = delete;
   ~Tracer();
@@ -66,9 +66,9 @@ class Tracer {
   /// \throw Error(usage) for another number of targets, if points were moved or cells replaced since the
   ///        tracer was made, and as walk(); Error(input) as walk(). Then rows and particles are as before
   /// Degenerate cases: a motion of length 0 has no piece. A length that rounds to 0 is 0.
-  /// Cost: 14 ns a crossing if cells are in the cache; about 1 us for each motion through a ridge, through a
-  /// vertex or along a facet. Thread-safe, with traces and counts of one's own; the results do not depend on
-  /// how motions are divided among calls.
+  /// Cost: 14 ns a crossing if cells are in the cache; 1 to 2 us a crossing for motions through ridges,
+  /// through vertices or along facets. Thread-safe, with traces and counts of one's own; the results do not
+  /// depend on how motions are divided among calls.
   void trace(std::span<Particle<D>> particles, std::span<const Point<D>> targets, Traces& traces,
              Walk_counts& counts) const;
 
