@@ -6,6 +6,8 @@
 - Headings get labels, since Doxygen knows those of GitHub neither within a page nor from another one. A label that is not there is a
   warning, so links are checked here too.
 - Pictures are named from the root, where Doxygen looks for them.
+- Links to public headers lead to their pages. Other files of the repository are in the folder files/ of the site, as text (scripts/docs.sh
+  copies those to which a page leads); folders have no page, so what leads to them is plain text.
 """
 
 import os
@@ -15,6 +17,8 @@ from pathlib import Path
 
 PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s:]+)\)")
 LINK = re.compile(r"(?<!!)\]\(([^)\s#]*\.md)?#([\w-]+)\)")
+FILE = re.compile(r"(?<!!)\[((?:[^\[\]]|`[^`]*`)*)\]\(([^)\s#:@]+)\)")
+HEADERS = "include/"
 
 
 def anchor(heading):
@@ -34,6 +38,16 @@ def filtered(page, text):
         target = os.path.join(os.path.dirname(page), match[1]) if match[1] else page
         return f"](#{label(target, match[2])})"
 
+    def file(match):
+        path = os.path.normpath(os.path.join(os.path.dirname(page), match[2]))
+        if path.endswith(".md"):
+            return match[0]
+        if os.path.isdir(path):
+            return match[1]
+        if path.startswith(HEADERS):
+            return f"[{match[1]}](@ref {path.removeprefix(HEADERS)})"
+        return f"[{match[1]}](files/{path}{'' if path.endswith('.webp') else '.txt'})"
+
     def picture(match):
         return f"{match[1]}{os.path.normpath(os.path.join(os.path.dirname(page), match[2]))})"
 
@@ -48,7 +62,7 @@ def filtered(page, text):
             line = f"{line.rstrip()} {{#{label(page, anchor(heading[2]))}}}"
         is_first = is_first and not heading
         if not in_code:
-            line = PICTURE.sub(picture, LINK.sub(link, line))
+            line = PICTURE.sub(picture, FILE.sub(file, LINK.sub(link, line)))
         lines.append(line)
     return "\n".join(lines)
 

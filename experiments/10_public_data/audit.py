@@ -43,7 +43,11 @@ def judge(source, paths, folder):
     if source["group"] != "cells":
         return surface_faults(*read_surface(paths[0])), paths[0]
     if "nodes" not in source:
-        return cell_faults(*read_cells(paths[0])), paths[0]
+        try:
+            mesh = read_cells(paths[0])
+        except (ValueError, IndexError):
+            return {"cells": 0, "cannot be read": 1}, paths[0]
+        return cell_faults(*mesh), paths[0]
     points, cells = read_mmc(paths[1], paths[0])
     converted = folder / (paths[0].stem + ".vtk")
     write_vtk(converted, points, cells["tetra"])
