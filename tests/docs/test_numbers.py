@@ -324,7 +324,8 @@ def faults_that_pass():
 
 def main():
     root = Path(sys.argv[1]).resolve()
-    pages = [root / "README.md", *sorted((root / "docs").rglob("*.md"))]
+    # The reference of the Python module is made of its docstrings.
+    pages = [root / "README.md", *sorted(page for page in (root / "docs").rglob("*.md") if page.name != "python_reference.md")]
     files = {str(path.relative_to(root)): path.read_text(encoding="utf-8") for path in [*pages, *(root / REGISTRY).rglob("*.txt")]}
     for entry in entries_of(files):
         files |= {name: (root / name).read_text(encoding="utf-8") for name, _ in entry.sources if (root / name).is_file()}
