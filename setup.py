@@ -100,7 +100,6 @@ is_numpy_2_known = tuple(map(int, BUILT["pybind11"].split(".")[:2])) >= (2, 12)
 setup(
     version=BUILT["version"] + ("+meshing" if BUILT["meshing"] else ""),
     **{licence_field: LICENCE},
-    license_files=["LICENSE", "COPYING.GPL"],
     install_requires=["numpy>=1.21" if is_numpy_2_known else "numpy>=1.21,<2"],
     packages=["cellwalk"],
     package_dir={"cellwalk": "python/cellwalk"},

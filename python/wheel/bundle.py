@@ -68,8 +68,9 @@ def bundle(package):
         patchelf("--set-soname", names[name], folder / names[name])
     for file in binaries(package):
         renamed = [name for name in patchelf("--print-needed", file).split() if name in names]
-        changes = [word for name in renamed for word in ("--replace-needed", name, names[name])]
+        for name in renamed:  # one by one: patchelf 0.14 forgets some of several changes
+            patchelf("--replace-needed", name, names[name], file)
         relative = os.path.relpath(folder, file.parent)
         path = "$ORIGIN" if relative == "." else f"$ORIGIN/{relative}"
-        patchelf(*changes, *(["--set-rpath", path] if renamed else ["--remove-rpath"]), file)
+        patchelf(*(["--set-rpath", path] if renamed else ["--remove-rpath"]), file)
     return {f"{FOLDER}/{names[name]}": source.resolve() for name, source in sources.items()}

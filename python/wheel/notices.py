@@ -15,9 +15,10 @@ BUNDLED = {
     "libtet": ("TetGen", "AGPL-3.0-or-later"),
     "libz": ("zlib", "Zlib"),
 }
-# What is compiled in, each with a file that it comes with.
+# Not among the texts of Debian.
+AGPL = Path(__file__).with_name("AGPL-3.0.txt")
+# What is compiled in and has a licence that must go with it, each with a file that it comes with. (Boost's need not.)
 COMPILED = [
-    ("Boost", "BSL-1.0", "/usr/include/boost/version.hpp"),
     ("CGAL", "LGPL-3.0-or-later", "/usr/include/CGAL/version.h"),
     ("CLI11", "BSD-3-Clause", "/usr/include/CLI/CLI.hpp"),
     ("Eigen", "MPL-2.0", "/usr/include/eigen3/Eigen/Core"),
@@ -74,6 +75,8 @@ def write_notices(folder, bundled, *, licence, meshing, three):
         lines.append(f"{name}: {terms}; {place}{f'; {origin}; {package}.txt' if origin else ''}")
         if origin:
             copy_texts(package, folder)
+        if terms.startswith("AGPL"):
+            shutil.copy(AGPL, folder)
     if three is not None:
         shutil.copy(three / "LICENSE", folder / "three.js.txt")
         lines.append("three.js: MIT; in the page of cellwalk view; three.js.txt")
