@@ -36,13 +36,12 @@ def asked(*command):
     return subprocess.run(command, capture_output=True, text=True).stdout
 
 
-def package_of(file):
-    """The Debian package that a file comes from, or nothing."""
+def packages_of(files):
+    """The Debian package that each of the files comes from, where one does."""
     # Packages may list what lies in /usr/lib as /lib.
-    for name in (str(file), str(file).removeprefix("/usr")):
-        if found := re.match(r"([\w.+-]+)(:\w+)?: ", asked("dpkg-query", "-S", name)):
-            return found[1]
-    return None
+    names = {name: file for file in map(str, files) for name in (file, file.removeprefix("/usr"))}
+    owners = re.findall(r"^([\w.+-]+)(?::\w+)?: (.+)$", asked("dpkg-query", "-S", *names), re.MULTILINE)
+    return {names[name]: package for package, name in owners if name in names}
 
 
 def copy_texts(package, folder):
@@ -67,10 +66,11 @@ def write_notices(folder, bundled, *, licence, meshing, three):
     parts += [(name, terms, file, "compiled in") for name, terms, file in COMPILED]
     lines = [f"Cellwalk in this wheel is under {licence}; the texts are in the folder dist-info of the wheel.", "",
              "Libraries in it, with the Debian packages whose sources they were built from:", ""]
+    packages = packages_of(file for _, _, file, _ in parts)
     for name, terms, file, place in parts:
         if name == "CGAL" and meshing:
             terms = "LGPL-3.0-or-later, and GPL-3.0-or-later for what makes meshes"
-        package = package_of(file)
+        package = packages.get(str(file))
         origin = asked("dpkg-query", "-W", "-f", "${source:Package} ${source:Version}", package) if package else ""
         lines.append(f"{name}: {terms}; {place}{f'; {origin}; {package}.txt' if origin else ''}")
         if origin:
