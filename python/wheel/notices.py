@@ -16,7 +16,7 @@ BUNDLED = {
     "libz": ("zlib", "Zlib"),
 }
 # Not among the texts of Debian.
-AGPL = Path(__file__).with_name("AGPL-3.0.txt")
+AGPL = Path(__file__).resolve().parents[2] / "COPYING.AGPL"
 # What is compiled in and has a licence that must go with it, each with a file that it comes with. (Boost's need not.)
 COMPILED = [
     ("CGAL", "LGPL-3.0-or-later", "/usr/include/CGAL/version.h"),
@@ -76,7 +76,7 @@ def write_notices(folder, bundled, *, licence, meshing, three):
         if origin:
             copy_texts(package, folder)
         if terms.startswith("AGPL"):
-            shutil.copy(AGPL, folder)
+            shutil.copy(AGPL, folder / "AGPL-3.0.txt")
     if three is not None:
         shutil.copy(three / "LICENSE", folder / "three.js.txt")
         lines.append("three.js: MIT; in the page of cellwalk view; three.js.txt")
