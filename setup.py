@@ -3,7 +3,7 @@
 libraries that both need are in it.
 
 The wheel is under the LGPL and makes no meshes, unless CMAKE_ARGS says -DCELLWALK_WITH_MESHING=ON: then it is under the GPL, has the
-meshers too, and its version ends in +meshing. Files that VTK reads are left to builds from source: VTK would be most of the wheel.
+meshers too, and its version ends in +meshing. Files that VTK reads are left to builds from source: VTK would double the size of the wheel.
 
 The build tree is build/pip, or the one that CELLWALK_BUILD_DIR names; CMAKE_ARGS has further arguments for the former.
 """
