@@ -16,11 +16,11 @@ core=(g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libtbb-dev li
 meshing=(libtet1.5-dev)
 io=(libvtk9-dev)
 mpi=(libboost-mpi-dev libopenmpi-dev openmpi-bin) # runs shared among processes
-python=(pybind11-dev python3-dev python3-numpy)
+python=(pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-wheel patchelf)
 cluster=(python3-distributed) # for the example of Dask
 python_tests=(mypy python3-meshio python3-vtk9) # the stubs, and arrays to and from other programs
 tests=(libgmsh-dev libgtest-dev librapidcheck-dev libbenchmark-dev python3 pkg-config dpkg-dev file clang-format chromium
-       python3-pip python3-setuptools python3-wheel)
+       python3-matplotlib)
 node=(nodejs npm) # for the page of cellwalk view; any Node.js from 18 on will do, from wherever it is
 fuzzing=(clang libclang-rt-dev) # the sanitizers' libraries are a package of their own
 documentation=(doxygen graphviz)

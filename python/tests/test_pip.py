@@ -1,46 +1,95 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""pip install . : the package works away from the sources, and has the program. CELLWALK_BUILD_DIR: a build tree to take."""
+"""pip wheel . : the wheel stands alone, says under which licence it is, and works away from the sources.
 
+CELLWALK_BUILD_DIR: a build tree to take; without it, pip configures one of its own, as it does by default, without meshing.
+"""
+
+import email
+import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+TREE = os.environ.get("CELLWALK_BUILD_DIR")
+CLEAN = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+PIP = ("-m", "pip", "--no-cache-dir", "--disable-pip-version-check")
+# In the names of whatever CGAL has under the GPL and meshing uses.
+GPL_NAMES = re.compile(rb"Polygon_mesh_processing|AABB_tree|Delaunay_triangulation_[23]|Triangulation_data_structure")
 
 
-class Pip(unittest.TestCase):
-    def test_an_installed_package_works(self):
-        with tempfile.TemporaryDirectory() as folder:
-            site = Path(folder) / "site"
-            clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+def run(*command, **more):
+    done = subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, env={**CLEAN, **more})
+    if done.returncode != 0:
+        raise AssertionError(f"{command}:\n{done.stdout}{done.stderr}")
+    return done.stdout
 
-            def run(*command, **more):
-                result = subprocess.run(command, capture_output=True, text=True, cwd=folder, env={**clean, **more})
-                self.assertEqual(result.returncode, 0, f"{command}:\n{result.stdout}{result.stderr}")
-                return result.stdout
 
-            run(sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", "--no-cache-dir",
-                "--disable-pip-version-check", "--target", str(site), str(ROOT))
-            here = {"PYTHONPATH": str(site)}
-            said = run(sys.executable, "-c",
-                       "import cellwalk; e = cellwalk.Environment.generate('squares', cells=(3, 3)); e.save('e.cellwalk'); "
-                       "print(cellwalk.__file__, len(e.cells()))", **here)
-            self.assertEqual(said.split(), [str(site / "cellwalk" / "__init__.py"), "9"])
-            (Path(folder) / "t.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
-            # A build without meshers has none in the package either.
-            run(sys.executable, "-c", "import cellwalk; cellwalk.build_features()['tetgen'] and cellwalk.Environment.import_mesh('t.off')",
-                **here)
-            helpers = [path.name for path in (site / "cellwalk").glob("libexec/cellwalk/*")]
-            self.assertEqual("True" in run(sys.executable, "-c", "import cellwalk; print(cellwalk.build_features()['tetgen'])", **here),
-                             "cellwalk-tetgen" in helpers)
-            program = [sys.executable, "-m", "cellwalk"]
-            self.assertRegex(run(*program, "check", "e.cellwalk", **here), r"cells +9 ")
-            self.assertEqual(run(str(site / "cellwalk" / "bin" / "cellwalk"), "--version"), run(*program, "--version", **here))
-            self.assertIn("dist-info", " ".join(p.name for p in site.iterdir()))
+class Wheel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        offline = ("--no-index", "--no-deps")
+        run(*PIP, "wheel", "--no-build-isolation", *offline, "--wheel-dir", cls.folder.name, ROOT)
+        [cls.file] = Path(cls.folder.name).glob("*.whl")
+        cls.site = Path(cls.folder.name) / "site"
+        run(*PIP, "install", *offline, "--target", cls.site, cls.file)
+        cls.package = cls.site / "cellwalk"
+        # What is taken has a default: no meshing.
+        cls.built = json.loads((Path(TREE) / "python" / "wheel.json").read_text()) if TREE else {"meshing": False}
+        with zipfile.ZipFile(cls.file) as wheel:
+            cls.names = wheel.namelist()
+            [metadata] = [name for name in cls.names if name.endswith(".dist-info/METADATA")]
+            cls.metadata = email.message_from_bytes(wheel.read(metadata))
 
+    def test_metadata_name_the_licence(self):
+        is_meshing = self.built["meshing"]
+        self.assertEqual(self.metadata["Name"], "cellwalk-ccd")
+        version = run("-c", "import cellwalk; print(cellwalk.__version__)", PYTHONPATH=str(self.site)).strip()
+        self.assertEqual(self.metadata["Version"], version + ("+meshing" if is_meshing else ""))
+        licence = self.metadata["License-Expression"] or self.metadata["License"]
+        self.assertEqual(licence, "GPL-3.0-or-later AND AGPL-3.0-or-later" if is_meshing else "LGPL-3.0-or-later")
+        self.assertTrue(self.metadata["Requires-Dist"].startswith("numpy"))
+        texts = {Path(name).name for name in self.names}
+        self.assertLessEqual({"LICENSE", "COPYING.GPL"} | ({"AGPL-3.0.txt"} if is_meshing else set()), texts)
+        self.assertRegex(self.file.name, r"^cellwalk_ccd-[\d.]+(\+meshing)?-cp(\d+)-cp\2-(manylinux_2_\d+|linux)_\w+\.whl$")
+
+    def test_a_wheel_without_meshing_has_nothing_under_the_gpl(self):
+        is_meshing = self.built["meshing"]
+        for name in ("bin/cellwalk", next(self.package.glob("_cellwalk*.so")).name):
+            found = GPL_NAMES.search((self.package / name).read_bytes())
+            self.assertEqual(bool(found), is_meshing, name)
+        # Nor a mesher, nor what VTK reads.
+        self.assertEqual(any("/libexec/cellwalk/cellwalk-" in name for name in self.names), is_meshing)
+        self.assertEqual(any(name.startswith("cellwalk/lib/libtet-") for name in self.names), is_meshing)
+        self.assertEqual([name for name in self.names if "vtk" in name.lower()], [])
+        self.assertLess(self.file.stat().st_size, 20e6)
+
+    def test_bundled_libraries_are_listed_with_their_licences(self):
+        listed = (self.package / "licenses" / "README.txt").read_text(encoding="utf-8")
+        libraries = [name.removeprefix("cellwalk/") for name in self.names if name.startswith("cellwalk/lib/")]
+        self.assertGreaterEqual(len(libraries), 4)
+        for library in libraries:
+            self.assertRegex(listed, rf"(?m)^.+: \S.*; {re.escape(library)};")
+            self.assertRegex(library, r"-[0-9a-f]{8}\.so", "the name is its own")
+        for text in re.findall(r"; ([\w.+-]+\.txt)$", listed, re.MULTILINE):
+            self.assertIn(f"cellwalk/licenses/{text}", self.names)
+        self.assertEqual("TetGen" in listed, self.built["meshing"])
+
+    def test_it_works_where_it_was_installed(self):
+        said = run(ROOT / "python" / "tests" / "use_wheel.py", "meshing" if self.built["meshing"] else "plain", PYTHONPATH=str(self.site))
+        self.assertIn("works", said)
+        program = subprocess.run([self.package / "bin" / "cellwalk", "--version"], capture_output=True, text=True, check=True)
+        self.assertEqual(program.stdout, run("-m", "cellwalk", "--version", PYTHONPATH=str(self.site)))
+
+
+class Program(unittest.TestCase):
     def test_the_module_is_the_program(self):
         said = subprocess.run([sys.executable, "-m", "cellwalk", "fly"], capture_output=True, text=True)
         self.assertEqual(said.returncode, 2, "exit codes are those of the program")

@@ -9,7 +9,8 @@ namespace {
 [[noreturn]] void refuse(const char* what) {
   throw Error(Error_code::usage,
               std::string("this build cannot mesh ") + what +
-                  ": configure it with -DCELLWALK_WITH_MESHING=ON, or import a mesh of cells");
+                  ": configure it with -DCELLWALK_WITH_MESHING=ON, install the wheel with meshing, or import "
+                  "a mesh of cells");
 }
 
 }  // namespace
