@@ -4,6 +4,7 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/walk/star.h>
 #include <cellwalk/walk/trace.h>
 
 #include <gtest/gtest.h>
@@ -116,6 +117,35 @@ TEST_F(TraceLanes, AreRoundedToNearestByEveryKindOfProcessor) {
     pieces += exact.size();
   }
   EXPECT_GT(pieces, 10 * motions);
+}
+
+TEST_F(TraceLanes, AreRoundedToNearestIfTheyRunAlmostAlongAFacet) {
+  const double error = detail::lane_error * planes_.size;
+  for (const double slope : {0x1p-20, 0x1p-28, 0x1p-30}) {
+    std::size_t certain = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+      const Cell cell = snapshot_.cell(random_.below(snapshot_.cell_count()));
+      const Half_facet facet = Snapshot<3>::half_facet(cell, random_.below(4));
+      const auto loop = snapshot_.loop(facet);
+      Point<3> middle{};
+      for (const std::uint32_t p : loop) middle = middle + (1.0 / 3) * snapshot_.point(p);
+      const Vector<3> off = detail::inner_normal(snapshot_.view(cell), snapshot_.facet_of(facet));
+      const auto near = [&](const Point<3>& corner, double distance) {
+        return corner + random_.real(0, 0.2) * (middle - corner) + distance * off;
+      };
+      const Point<3> from = near(snapshot_.point(loop[0]), random_.real(0.5, 1) * slope),
+                     to = near(snapshot_.point(loop[1]), random_.real(-1, -0.5) * slope);
+      const std::vector<Cell_exit> exits{{facet}};
+      std::vector<double> exact;
+      detail::append_lengths<3>(snapshot_, from, to, exits, 2, exact);
+      for (const Kind& kind : kinds()) {
+        const Measured measured(from, to, planes_, {to_index(facet)}, error, kind.functions);
+        certain += measured.is_certain;
+        if (measured.is_certain) ASSERT_EQ(measured.length, exact) << kind.name << ", " << slope;
+      }
+    }
+    EXPECT_GT(certain, 200 * kinds().size()) << slope;
+  }
 }
 
 TEST_F(TraceLanes, LeaveLengthsOpenThatTheirErrorsDoNotRound) {
