@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "walk/trace/block_walk.h"
 #include "walk/trace/lane_planes.h"
 #include "walk/trace/piece_lengths.h"
 #include "walk/trace/plain_lanes.h"
@@ -145,6 +146,45 @@ TEST_F(TraceLanes, AreRoundedToNearestIfTheyRunAlmostAlongAFacet) {
       }
     }
     EXPECT_GT(certain, 200 * kinds().size()) << slope;
+  }
+}
+
+TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
+  std::vector<Particle<3>> particles;
+  std::vector<Point<3>> targets;
+  while (particles.size() < detail::rows_of_block) {
+    const bool is_at_vertex = particles.size() % 4 == 0, leaves = particles.size() % 2 == 0;
+    const std::size_t corner = random_.below(snapshot_.points().size());
+    particles.push_back(locator_.particle_at(is_at_vertex ? snapshot_.point(corner) : any_point()).value());
+    targets.push_back(leaves ? 3.0 * any_point() - Vector<3>{6, 6, 6} : any_point());
+    if (particles.size() % 8 != 1) continue;  // some through the inside of the cell of a vertex
+    const Point<3> from = particles.back().position;
+    Vector<3> inwards{};
+    for (const std::uint32_t p : snapshot_.view(particles.back().cell).vertices)
+      inwards = inwards + (snapshot_.point(p) - from);
+    targets.back() = from + inwards;
+  }
+  for (const Kind& kind : kinds()) {
+    detail::Block_walk<3> walks(snapshot_, kind.functions);
+    walks.run(particles, targets);
+    std::size_t arrived = 0, blocked = 0, from_vertices = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const detail::Lane_row& row = walks.row(i);
+      if (row.verdict == detail::Lane_verdict::undecided) continue;
+      std::vector<Half_facet> crossed;
+      Walk_counts counts;
+      const Walk_result<3> result = walk(snapshot_, particles[i], targets[i], counts, {nullptr, &crossed});
+      if (result.contact) crossed.push_back(result.contact->facet);
+      ASSERT_EQ(row.verdict == detail::Lane_verdict::blocked, result.contact.has_value()) << kind.name;
+      ASSERT_EQ(row.cell, to_index(result.cell)) << kind.name;
+      ASSERT_EQ(walks.met(row).size(), crossed.size()) << kind.name;
+      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row)[k], to_index(crossed[k]));
+      ++(result.contact ? blocked : arrived);
+      from_vertices += particles[i].dimension == 0;
+    }
+    EXPECT_GT(arrived, 100u) << kind.name;
+    EXPECT_GT(blocked, 40u) << kind.name;
+    EXPECT_GT(from_vertices, 10u) << kind.name;
   }
 }
 
