@@ -210,6 +210,38 @@ void test_worlds() {
 TEST(TraceOracle, LengthsAreThoseOfTheTruth2) { test_worlds<2>(); }
 TEST(TraceOracle, LengthsAreThoseOfTheTruth3) { test_worlds<3>(); }
 
+/// Rays far beyond a cube far from the origin, past its edges by less than the coordinates there resolve.
+TEST(TraceOracle, RaysLeaveAWorldFarFromTheOriginWhereTheyDo) {
+  constexpr double offset = 0x1p36, ulp = 0x1p-16, side = 1.9375;
+  World<3> world;
+  for (int i = 0; i < 8; ++i)
+    world.soup.points.push_back(
+        {offset + side * (i & 1), -offset + side * (i >> 1 & 1), offset + side * (i >> 2 & 1)});
+  add_hexahedron(world.soup, {0, 1, 3, 2, 4, 5, 7, 6});
+  const Oracle<3> oracle(world.soup);
+  const Snapshot<3> snapshot = Snapshot<3>::compile(world.soup, glue(world.soup));
+  const Locator<3> locator(snapshot);
+  Random random(1);
+  const auto few_ulp = [&] { return (static_cast<double>(random.below(5)) - 2) * ulp; };
+  Batch<3> batch;
+  for (int i = 0; i < 3000; ++i) {
+    Point<3> from = world.soup.points[0], on_edge = world.soup.points[7];
+    for (double& x : from) x += random.real(0.0625, 0.25);
+    on_edge[random.below(3)] -= random.real(0, 1);
+    const double times = static_cast<double>(4 << random.below(10));
+    batch.particles.push_back(locator.particle_at(from).value());
+    batch.targets.push_back(from + times * (on_edge - from) + Vector<3>{few_ulp(), few_ulp(), few_ulp()});
+  }
+  const std::vector<Particle<3>> starts = batch.particles;
+  Traces traces;
+  Walk_counts counts;
+  Tracer<3>(snapshot).trace(batch.particles, batch.targets, traces, counts);
+  Traced seen;
+  for (std::size_t row = 0; row < starts.size(); ++row)
+    expect_row(oracle, snapshot, starts[row], batch.particles[row], batch.targets[row], traces, row, seen);
+  EXPECT_EQ(seen.blocked, starts.size());
+}
+
 template <int D>
 void test_calls() {
   const World<D> world = make_world<D>(3);

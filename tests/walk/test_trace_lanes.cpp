@@ -4,6 +4,7 @@
 #include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/internal/kernel/random.h>
+#include <cellwalk/internal/walk/star.h>
 #include <cellwalk/walk/trace.h>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "walk/trace/block_walk.h"
 #include "walk/trace/lane_planes.h"
 #include "walk/trace/piece_lengths.h"
 #include "walk/trace/plain_lanes.h"
@@ -116,6 +118,74 @@ TEST_F(TraceLanes, AreRoundedToNearestByEveryKindOfProcessor) {
     pieces += exact.size();
   }
   EXPECT_GT(pieces, 10 * motions);
+}
+
+TEST_F(TraceLanes, AreRoundedToNearestIfTheyRunAlmostAlongAFacet) {
+  const double error = detail::lane_error * planes_.size;
+  for (const double slope : {0x1p-20, 0x1p-28, 0x1p-30}) {
+    std::size_t certain = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+      const Cell cell = snapshot_.cell(random_.below(snapshot_.cell_count()));
+      const Half_facet facet = Snapshot<3>::half_facet(cell, random_.below(4));
+      const auto loop = snapshot_.loop(facet);
+      Point<3> middle{};
+      for (const std::uint32_t p : loop) middle = middle + (1.0 / 3) * snapshot_.point(p);
+      const Vector<3> off = detail::inner_normal(snapshot_.view(cell), snapshot_.facet_of(facet));
+      const auto near = [&](const Point<3>& corner, double distance) {
+        return corner + random_.real(0, 0.2) * (middle - corner) + distance * off;
+      };
+      const Point<3> from = near(snapshot_.point(loop[0]), random_.real(0.5, 1) * slope),
+                     to = near(snapshot_.point(loop[1]), random_.real(-1, -0.5) * slope);
+      const std::vector<Cell_exit> exits{{facet}};
+      std::vector<double> exact;
+      detail::append_lengths<3>(snapshot_, from, to, exits, 2, exact);
+      for (const Kind& kind : kinds()) {
+        const Measured measured(from, to, planes_, {to_index(facet)}, error, kind.functions);
+        certain += measured.is_certain;
+        if (measured.is_certain) ASSERT_EQ(measured.length, exact) << kind.name << ", " << slope;
+      }
+    }
+    EXPECT_GT(certain, 200 * kinds().size()) << slope;
+  }
+}
+
+TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
+  std::vector<Particle<3>> particles;
+  std::vector<Point<3>> targets;
+  while (particles.size() < detail::rows_of_block) {
+    const bool is_at_vertex = particles.size() % 4 == 0, leaves = particles.size() % 2 == 0;
+    const std::size_t corner = random_.below(snapshot_.points().size());
+    particles.push_back(locator_.particle_at(is_at_vertex ? snapshot_.point(corner) : any_point()).value());
+    targets.push_back(leaves ? 3.0 * any_point() - Vector<3>{6, 6, 6} : any_point());
+    if (particles.size() % 8 != 1) continue;  // some through the inside of the cell of a vertex
+    const Point<3> from = particles.back().position;
+    Vector<3> inwards{};
+    for (const std::uint32_t p : snapshot_.view(particles.back().cell).vertices)
+      inwards = inwards + (snapshot_.point(p) - from);
+    targets.back() = from + inwards;
+  }
+  for (const Kind& kind : kinds()) {
+    detail::Block_walk<3> walks(snapshot_, kind.functions);
+    walks.run(particles, targets);
+    std::size_t arrived = 0, blocked = 0, from_vertices = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const detail::Lane_row& row = walks.row(i);
+      if (row.verdict == detail::Lane_verdict::undecided) continue;
+      std::vector<Half_facet> crossed;
+      Walk_counts counts;
+      const Walk_result<3> result = walk(snapshot_, particles[i], targets[i], counts, {nullptr, &crossed});
+      if (result.contact) crossed.push_back(result.contact->facet);
+      ASSERT_EQ(row.verdict == detail::Lane_verdict::blocked, result.contact.has_value()) << kind.name;
+      ASSERT_EQ(row.cell, to_index(result.cell)) << kind.name;
+      ASSERT_EQ(walks.met(row).size(), crossed.size()) << kind.name;
+      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row)[k], to_index(crossed[k]));
+      ++(result.contact ? blocked : arrived);
+      from_vertices += particles[i].dimension == 0;
+    }
+    EXPECT_GT(arrived, 100u) << kind.name;
+    EXPECT_GT(blocked, 40u) << kind.name;
+    EXPECT_GT(from_vertices, 10u) << kind.name;
+  }
 }
 
 TEST_F(TraceLanes, LeaveLengthsOpenThatTheirErrorsDoNotRound) {

@@ -3,6 +3,7 @@
 // of both sets give it; walks at the means of facets show that walls are there.
 #include <cellwalk/body/boundary_tracer.h>
 #include <cellwalk/environment/selection.h>
+#include <cellwalk/internal/body/stop_candidates.h>
 #include <cellwalk/internal/walk/star.h>
 #include <cellwalk/kernel/error.h>
 
@@ -20,6 +21,9 @@ namespace {
 /// Shares of the size of two sets of walls: by how much the translations of their corners may differ, as they
 /// do in files with ten digits; and how near to the mean of a facet a wall of the other set must be.
 constexpr double rounding = 0x1p-30, nearness = 0x1p-24;
+
+/// Far from the origin, where doubles are further apart than these shares: at least so many ulp.
+constexpr double rounding_ulps = 4, nearness_ulps = 16;
 
 template <int D>
 struct Extent {
@@ -71,16 +75,16 @@ std::vector<Half_facet> free_sides(const Snapshot<D>& snapshot, std::span<const 
   return sides;
 }
 
-/// Each wall, translated, lies on a wall that it is to reach: a walk to its other side meets one.
+/// Each wall, translated, lies on a wall that it is to reach: a walk to its other side, from and to this near
+/// to it, meets one.
 template <int D>
 void check_reaches(const Snapshot<D>& snapshot, const Locator<D>& locator, std::span<const Half_facet> from,
-                   std::span<const Half_facet> to, const Vector<D>& translation, double size) {
+                   std::span<const Half_facet> to, const Vector<D>& translation, double near) {
   std::unordered_set<std::uint32_t> reached;
   for (const Half_facet facet : to) reached.insert(to_index(facet));
   for (const Half_facet facet : from) {
     const Cell cell = snapshot.cell_of(facet);
-    const Vector<D> inwards =
-        (nearness * size) * detail::inner_normal(snapshot.view(cell), snapshot.facet_of(facet));
+    const Vector<D> inwards = near * detail::inner_normal(snapshot.view(cell), snapshot.facet_of(facet));
     const Point<D> there = centroid(snapshot, facet) + translation;
     const auto particle = locator.particle_at(there - inwards);  // the other wall faces the other way
     Walk_counts counts;
@@ -146,17 +150,21 @@ Vector<D> Boundary_tracer<D>::join(std::span<const Half_facet> left, std::span<c
   const Extent<D> here = extent<D>(snapshot_, from), there = extent<D>(snapshot_, to);
   const Vector<D> low = there.low - here.low, high = there.high - here.high;
   const double size = std::max({length(here.high - here.low), length(there.high - there.low), length(low)});
-  if (!(length(high - low) <= rounding * size))
+  const double unit = std::max({detail::ulp<D>(here.low), detail::ulp<D>(here.high),
+                                detail::ulp<D>(there.low), detail::ulp<D>(there.high)});
+  const double tolerance = std::max(rounding * size, rounding_ulps * unit);
+  const double near = std::max(nearness * size, nearness_ulps * unit);
+  if (!(length(high - low) <= tolerance))
     throw Error(Error_code::input,
                 fmt::format("the two groups do not correspond: their extents are ({:.17g}) and ({:.17g})",
                             fmt::join(here.high - here.low, ", "), fmt::join(there.high - there.low, ", ")));
   const Vector<D> translation = 0.5 * (low + high);
-  check_reaches<D>(snapshot_, locator_, from, to, translation, size);
-  check_reaches<D>(snapshot_, locator_, to, from, -1.0 * translation, size);
+  check_reaches<D>(snapshot_, locator_, from, to, translation, near);
+  check_reaches<D>(snapshot_, locator_, to, from, -1.0 * translation, near);
   for (const auto& [walls, others, way] :
        {std::tuple(&from, &to, translation), std::tuple(&to, &from, -1.0 * translation)}) {
     for (const Half_facet wall : *walls) answer(wall, passages_.size());
-    passages_.push_back({way, rounding * size, cells_at<D>(snapshot_, *others)});
+    passages_.push_back({way, tolerance, cells_at<D>(snapshot_, *others)});
   }
   return translation;
 }

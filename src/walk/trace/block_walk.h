@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -45,7 +46,7 @@ class Block_walk {
       Float_point<D> from, to;
       if (particle.cell == Cell::none || !snapshot_.frame().map(particle.position, from)) continue;
       is_cut_[i] = !snapshot_.frame().map(targets[i], to);
-      if (is_cut_[i] && !snapshot_.frame().map(within_frame(particle.position, targets[i]), to)) continue;
+      if (is_cut_[i] && !map_exit(particle.position, targets[i], to)) continue;
       Lane_motion& motion = motions_[count++];
       std::copy(from.begin(), from.end(), motion.from);
       std::copy(to.begin(), to.end(), motion.to);
@@ -85,17 +86,26 @@ class Block_walk {
     unsigned char number = 0;
   };
 
-  /// A point at which the way from a point of the frame to one outside is about to leave it. It is off the
-  /// way by some units in the last place of a double, which the error of the planes covers.
-  Point<D> within_frame(const Point<D>& from, const Point<D>& to) const {
+  /// Maps a point at which the way from a point of the frame to one outside is about to leave it; false if
+  /// there is none. It is computed in the frame, where it is off the way by some 2^-53, which the error of
+  /// the planes covers. (The point itself, rounded, could be off by more, far from the origin.)
+  bool map_exit(const Point<D>& from, const Point<D>& to, Float_point<D>& y) const {
     const Plane_frame<D>& frame = snapshot_.frame();
+    Point<D> at;
     double share = 1;
     for (std::size_t k = 0; k < D; ++k) {
+      at[k] = (from[k] - frame.centre[k]) * frame.scale;
       const double step = to[k] - from[k];
-      const double limit = frame.centre[k] + (step < 0 ? -1 : 1) / frame.scale;
-      if (step != 0) share = std::min(share, (limit - from[k]) / step);
+      if (step != 0) share = std::min(share, ((step < 0 ? -1 : 1) - at[k]) / frame.scale / step);
     }
-    return from + (share * (1 - 0x1p-30)) * (to - from);
+    share *= 1 - 0x1p-30;
+    bool inside = true;
+    for (std::size_t k = 0; k < D; ++k) {
+      const double t = at[k] + share * (to[k] - from[k]) * frame.scale;
+      inside &= std::abs(t) <= 1;
+      y[k] = static_cast<float>(t);
+    }
+    return inside;
   }
 
   void grow(unsigned slot) {

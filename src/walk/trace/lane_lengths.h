@@ -11,9 +11,10 @@
 // by at most 3 2^11 u^2 2M + 2^6 u^2 M, and by 2^8 u^2 M more as it is computed, in all by less than 2^14 u^2
 // M; n.e by 3 2^11 u^2 and, since e is known within 2^6 u^2, by 2^9 u^2 more, in all by less than 2^13 u^2.
 // As s is at most 2 sqrt(3) M, it is within (2^14 + 3.5 2^13) u^2 M / |n.e|; the division adds less than 2^8
-// u^2 M / |n.e|. Together that is less than 2^16 u^2 M / |n.e|. The unit of errors is twice as much, for
-// terms of higher order, for 1 / (n.e), which is rounded, and for the rounding of the difference of two
-// positions. The length of the segment itself is known within 2^6 u^2 M.
+// u^2 M / |n.e|, as the low part of n.e is within u of the high one, relatively. (It is not if |n.e| < 2^5 u,
+// but then the error leaves all lengths open.) Together that is less than 2^16 u^2 M / |n.e|. The unit of
+// errors is twice as much, for terms of higher order, for 1 / (n.e), which is rounded, and for the rounding
+// of the difference of two positions. The length of the segment itself is known within 2^6 u^2 M.
 #ifndef CELLWALK_WALK_TRACE_LANE_LENGTHS_H
 #define CELLWALK_WALK_TRACE_LANE_LENGTHS_H
 
@@ -132,6 +133,10 @@ inline void meet_planes(const Lane_segments& segments, unsigned long segment, co
     V sum, slope, height;
     slope_low = slope_low + sum_with_error(along[0], along[1], sum);
     slope_low = slope_low + sum_with_error(sum, along[2], slope);
+    // Along a facet the terms nearly cancel, and the low part may be large beside their sum.
+    const V whole_slope = slope + slope_low;
+    slope_low = slope_low - (whole_slope - slope);
+    slope = whole_slope;
     height_low = height_low + sum_with_error(n[3], -at[0], sum);
     height_low = height_low + sum_with_error(sum, -at[1], height);
     height_low = height_low + sum_with_error(height, -at[2], sum);
