@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The classes of Gymnasium that environments need: those of the package where it is installed, else small ones with the same names."""
+
+import importlib
+from typing import Any, Iterator, Mapping, Optional
+
+import numpy
+from numpy.typing import NDArray
+
+
+class _Space:
+    """A set of values from which one can be drawn."""
+
+    shape: Optional[tuple[int, ...]] = None
+    dtype: Any = None
+
+    def __contains__(self, x: Any) -> bool:
+        return self.contains(x)
+
+    def contains(self, x: Any) -> bool:
+        raise NotImplementedError
+
+
+class _Box(_Space):
+    """Arrays of a shape and a type between bounds."""
+
+    def __init__(self, low: Any, high: Any, shape: Optional[tuple[int, ...]] = None, dtype: Any = numpy.float32) -> None:
+        self.dtype = numpy.dtype(dtype)
+        self.shape = numpy.broadcast(low, high).shape if shape is None else shape
+        self.low, self.high = (numpy.broadcast_to(bound, self.shape).astype(self.dtype) for bound in (low, high))
+        self.seed()
+
+    def seed(self, seed: Optional[int] = None) -> None:
+        self._random = numpy.random.default_rng(seed)
+
+    def sample(self) -> NDArray[Any]:
+        return self._random.uniform(self.low, self.high).astype(self.dtype)
+
+    def contains(self, x: Any) -> bool:
+        return bool(isinstance(x, numpy.ndarray) and numpy.can_cast(x.dtype, self.dtype) and x.shape == self.shape
+                    and (x >= self.low).all() and (x <= self.high).all())
+
+    def __eq__(self, other: object) -> bool:
+        return (isinstance(other, _Box) and self.dtype == other.dtype and self.shape == other.shape
+                and bool((self.low == other.low).all() and (self.high == other.high).all()))
+
+    def __repr__(self) -> str:
+        return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
+
+
+class _Dict(_Space):
+    """A space for each name."""
+
+    def __init__(self, spaces: Mapping[str, _Box]) -> None:
+        self.spaces = dict(spaces)
+
+    def seed(self, seed: Optional[int] = None) -> None:
+        for space, own in zip(self.spaces.values(), numpy.random.SeedSequence(seed).spawn(len(self.spaces))):
+            space.seed(int(own.generate_state(1)[0]))
+
+    def sample(self) -> dict[str, Any]:
+        return {name: space.sample() for name, space in self.spaces.items()}
+
+    def contains(self, x: Any) -> bool:
+        return isinstance(x, dict) and x.keys() == self.spaces.keys() and all(x[name] in space for name, space in self.spaces.items())
+
+    def __getitem__(self, name: str) -> _Box:
+        return self.spaces[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.spaces)
+
+    def __len__(self) -> int:
+        return len(self.spaces)
+
+    def keys(self) -> Any:
+        return self.spaces.keys()
+
+    def items(self) -> Any:
+        return self.spaces.items()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Dict) and self.spaces == other.spaces
+
+    def __repr__(self) -> str:
+        return f"Dict({self.spaces})"
+
+
+class _Env:
+    """What all environments share: random numbers, and what wrappers expect."""
+
+    metadata: dict[str, Any] = {"render_modes": []}
+    render_mode: Optional[str] = None
+    spec: Any = None
+    _np_random: Optional[numpy.random.Generator] = None
+
+    @property
+    def np_random(self) -> numpy.random.Generator:
+        if self._np_random is None:
+            self._np_random = numpy.random.default_rng()
+        return self._np_random
+
+    @property
+    def unwrapped(self) -> Any:
+        return self
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None) -> Any:
+        if seed is not None:
+            self._np_random = numpy.random.default_rng(seed)
+
+    def close(self) -> None:
+        pass
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
+
+
+Env: Any
+Box: Any
+Dict: Any
+try:
+    _gymnasium = importlib.import_module("gymnasium")
+    Env, Box, Dict = _gymnasium.Env, _gymnasium.spaces.Box, _gymnasium.spaces.Dict
+except ImportError:
+    Env, Box, Dict = _Env, _Box, _Dict

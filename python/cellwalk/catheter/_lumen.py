@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Where wires enter a lumen, where they are to go, and the centre lines between.
+
+All distances are along the means of neighbouring cells. Centre lines are for guidance: walls are known by the wire alone.
+"""
+
+import heapq
+import math
+from typing import Optional, Sequence, Union
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+from .. import Environment, OutsideError, Place, UsageError
+
+_Array = NDArray[numpy.float64]
+
+
+def lengths(vectors: _Array) -> _Array:
+    x, y, z = vectors.T
+    return numpy.sqrt(x * x + y * y + z * z)
+
+
+def evenly(points: _Array, distance: float) -> _Array:
+    """Points along a line at the same distance, or a little less, from the first to the last."""
+    along = numpy.concatenate([[0.0], numpy.cumsum(lengths(points[1:] - points[:-1]))])
+    at = numpy.linspace(0, along[-1], max(2, int(numpy.ceil(along[-1] / distance)) + 1))
+    k = numpy.clip(numpy.searchsorted(along, at) - 1, 0, len(points) - 2)
+    share = ((at - along[k]) / numpy.maximum(along[k + 1] - along[k], 1e-300))[:, None]
+    return (1 - share) * points[k] + share * points[k + 1]
+
+
+class Lumen:
+    """An environment in which wires go from a start to targets: what all catheters in it can share.
+
+    start: a point, or the name of a group of cells or facets.
+    targets: points or names; by default all other groups, or the ends of all branches where there are none.
+
+    `names` of the targets; `lines`, a centre line (N, 3) from the start to each of them; `reaches`, the distance of each from all walls.
+    """
+
+    def __init__(self, environment: Environment, start: Union[str, ArrayLike], targets: Optional[Sequence[Union[str, ArrayLike]]] = None) -> None:
+        if environment.dimension != 3:
+            raise UsageError("Lumen(): the environment has 2 dimensions: wires need 3")
+        self.environment = environment
+        self._read(environment)
+        cell, self.entry = self._place("start", start)
+        cost = self._distances([cell], self._costs)
+        if targets is None:
+            targets = [name for name in environment.groups if name != start]
+        if len(targets) > 0:
+            self.names = [given if isinstance(given, str) else f"target {i + 1}" for i, given in enumerate(targets)]
+            places = [self._place(name, given) for name, given in zip(self.names, targets)]
+        else:
+            places = [self._widest_near([end]) for end in self._ends(cell, cost)]
+            self.names = [f"end {i + 1}" for i in range(len(places))]
+        for name, (goal, _) in zip(self.names, places):
+            if not math.isfinite(cost[goal]):
+                raise OutsideError(f"Lumen(): {name} is not connected with the start")
+        paths = [self._path(goal, cost) for goal, _ in places]
+        step = float(numpy.median(self._width[numpy.concatenate(paths)])) / 2
+        self.step = step
+        self.lines = [self._line(path, point, step) for path, (_, point) in zip(paths, places)]
+        self.reaches = [self._clearance(line[-1], self._width[path[0]]) for line, path in zip(self.lines, paths)]
+        ahead = self.lines[0][min(2, len(self.lines[0]) - 1)] - self.entry
+        self.direction: _Array = ahead / lengths(ahead[None])
+        del self._first, self._links, self._link_lengths, self._costs, self._means, self._width
+
+    def _read(self, environment: Environment) -> None:
+        """The graph of the cells: for each cell the neighbours behind passable facets, and the distance of walls."""
+        facets, self._means = environment.facets(), numpy.ascontiguousarray(environment.cells()["mean"])
+        count = len(self._means)
+        open_, walls = facets[~facets["wall"]], facets[facets["wall"]]
+        cells, links = numpy.concatenate([open_["cell"], open_["neighbour"]]), numpy.concatenate([open_["neighbour"], open_["cell"]])
+        order = numpy.argsort(cells, kind="stable")
+        cells, links = cells[order], links[order]
+        self._first = numpy.searchsorted(cells, numpy.arange(count + 1)).tolist()
+        self._links, link_lengths = links.tolist(), lengths(self._means[cells] - self._means[links])
+        self._link_lengths = link_lengths.tolist()
+        known = numpy.full(count, numpy.inf)
+        for side in ("cell", "neighbour"):
+            beside = walls[walls[side] >= 0]
+            numpy.minimum.at(known, beside[side], lengths(self._means[beside[side]] - beside["mean"]))
+        width = known.tolist()
+        self._spread(width, numpy.flatnonzero(numpy.isfinite(known)).tolist(), self._link_lengths)
+        self._width = numpy.array(width)
+        self._costs = (link_lengths * (1 / self._width[links] + 1 / self._width[cells]) / 2).tolist()
+
+    def _spread(self, distance: list[float], sources: list[int], link_lengths: list[float], limit: float = math.inf) -> None:
+        """Lowers distances up to a limit, if cells are nearer by way of the sources, whose own are given (Dijkstra)."""
+        queue = [(distance[cell], cell) for cell in sources]
+        heapq.heapify(queue)
+        while queue:
+            so_far, cell = heapq.heappop(queue)
+            if so_far > distance[cell]:
+                continue
+            for k in range(self._first[cell], self._first[cell + 1]):
+                longer = so_far + link_lengths[k]
+                if longer < distance[self._links[k]] and longer <= limit:
+                    distance[self._links[k]] = longer
+                    heapq.heappush(queue, (longer, self._links[k]))
+
+    def _distances(self, sources: list[int], link_lengths: list[float], limit: float = math.inf) -> list[float]:
+        distance = [math.inf] * len(self._means)
+        for cell in sources:
+            distance[cell] = 0.0
+        self._spread(distance, sources, link_lengths, limit)
+        return distance
+
+    def _widest_near(self, cells: list[int]) -> tuple[int, _Array]:
+        """The middle of the lumen at some cells: the widest cell that is not farther from them than two of its own distances from walls."""
+        finite = numpy.where(numpy.isfinite(self._width), self._width, 0)
+        near = numpy.array(self._distances(cells, self._link_lengths, 2 * float(finite.max()))) <= 2 * finite
+        cell = int(numpy.argmax(numpy.where(near, finite, -1)))
+        return cell, self._means[cell]
+
+    def _place(self, name: str, given: Union[str, ArrayLike]) -> tuple[int, _Array]:
+        if isinstance(given, str):
+            group = self.environment.select(group=given)
+            cells = numpy.concatenate([group.cells["cell"], group.facets["cell"], group.facets["neighbour"]])
+            return self._widest_near(numpy.unique(cells[cells >= 0]).tolist())
+        point = numpy.array(given, dtype=float)
+        if point.shape != (3,):
+            raise UsageError(f"Lumen(): {name} has shape {point.shape}: a point of shape (3,), or the name of a group, is needed")
+        found = self.environment.locate(point[None])
+        if found.status[0] != Place.FREE:
+            raise OutsideError(f"Lumen(): {name} at {tuple(point.tolist())} is not in free space")
+        return int(found.cell[0]), point
+
+    def _path(self, cell: int, cost: list[float]) -> list[int]:
+        """Cells from one back to the start."""
+        path = [cell]
+        while cost[cell] > 0:
+            _, cell = min((cost[self._links[k]] + self._costs[k], self._links[k]) for k in range(self._first[cell], self._first[cell + 1]))
+            path.append(cell)
+        return path
+
+    def _ends(self, start: int, cost: list[float]) -> list[int]:
+        """The farthest cells of all branches that are longer than twice the width of the lumen."""
+        ends: list[int] = []
+        distance = self._distances([start], self._link_lengths)
+        within = numpy.isfinite(distance)
+        least = 2 * float(self._width[within].max())
+        while True:
+            end = int(numpy.argmax(numpy.where(within, distance, -1)))
+            if ends and distance[end] < least:
+                return ends
+            ends.append(end)
+            path = self._path(end, cost)
+            for at in path:
+                distance[at] = 0.0
+            self._spread(distance, path, self._link_lengths)
+
+    def _line(self, path: list[int], goal: _Array, step: float) -> _Array:
+        line = evenly(numpy.concatenate([self.entry[None], self._means[path[::-1][1:-1]], goal[None]]), step)
+        for _ in range(8):
+            line[1:-1] = (line[:-2] + 2 * line[1:-1] + line[2:]) / 4
+        return evenly(line, step)
+
+    def _clearance(self, point: _Array, up_to: float) -> float:
+        at = point[None].copy()
+        distance = float(self.environment.walk(at, at, radius=float(up_to), threads=1).distance[0])
+        return float(up_to) if numpy.isnan(distance) else distance
