@@ -1,57 +1,42 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The classes of Gymnasium that environments need: those of the package where it is installed, else small ones with the same names."""
+"""What environments need of Gymnasium: the classes of the package where it is installed, else small ones that do the same."""
 
 import importlib
 from typing import Any, Iterator, Mapping, Optional
 
 import numpy
-from numpy.typing import NDArray
 
 
-class _Space:
-    """A set of values from which one can be drawn."""
-
-    shape: Optional[tuple[int, ...]] = None
-    dtype: Any = None
-
-    def __contains__(self, x: Any) -> bool:
-        return self.contains(x)
-
-    def contains(self, x: Any) -> bool:
-        raise NotImplementedError
-
-
-class _Box(_Space):
+class _Box:
     """Arrays of a shape and a type between bounds."""
 
     def __init__(self, low: Any, high: Any, shape: Optional[tuple[int, ...]] = None, dtype: Any = numpy.float32) -> None:
-        self.dtype = numpy.dtype(dtype)
-        self.shape = numpy.broadcast(low, high).shape if shape is None else shape
+        self.dtype, self.shape = numpy.dtype(dtype), numpy.broadcast(low, high).shape if shape is None else shape
         self.low, self.high = (numpy.broadcast_to(bound, self.shape).astype(self.dtype) for bound in (low, high))
         self.seed()
 
     def seed(self, seed: Optional[int] = None) -> None:
         self._random = numpy.random.default_rng(seed)
 
-    def sample(self) -> NDArray[Any]:
+    def sample(self) -> Any:
         return self._random.uniform(self.low, self.high).astype(self.dtype)
 
     def contains(self, x: Any) -> bool:
         return bool(isinstance(x, numpy.ndarray) and numpy.can_cast(x.dtype, self.dtype) and x.shape == self.shape
                     and (x >= self.low).all() and (x <= self.high).all())
 
-    def __eq__(self, other: object) -> bool:
-        return (isinstance(other, _Box) and self.dtype == other.dtype and self.shape == other.shape
-                and bool((self.low == other.low).all() and (self.high == other.high).all()))
+    __contains__ = contains
 
     def __repr__(self) -> str:
         return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
 
 
-class _Dict(_Space):
+class _Dict:
     """A space for each name."""
 
-    def __init__(self, spaces: Mapping[str, _Box]) -> None:
+    shape = dtype = None
+
+    def __init__(self, spaces: Mapping[str, Any]) -> None:
         self.spaces = dict(spaces)
 
     def seed(self, seed: Optional[int] = None) -> None:
@@ -64,33 +49,21 @@ class _Dict(_Space):
     def contains(self, x: Any) -> bool:
         return isinstance(x, dict) and x.keys() == self.spaces.keys() and all(x[name] in space for name, space in self.spaces.items())
 
-    def __getitem__(self, name: str) -> _Box:
+    __contains__ = contains
+
+    def __getitem__(self, name: str) -> Any:
         return self.spaces[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.spaces)
-
-    def __len__(self) -> int:
-        return len(self.spaces)
-
-    def keys(self) -> Any:
-        return self.spaces.keys()
-
-    def items(self) -> Any:
-        return self.spaces.items()
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Dict) and self.spaces == other.spaces
 
     def __repr__(self) -> str:
         return f"Dict({self.spaces})"
 
 
 class _Env:
-    """What all environments share: random numbers, and what wrappers expect."""
+    """Random numbers, and what wrappers expect."""
 
-    metadata: dict[str, Any] = {"render_modes": []}
-    render_mode: Optional[str] = None
     spec: Any = None
     _np_random: Optional[numpy.random.Generator] = None
 
@@ -118,11 +91,11 @@ class _Env:
         self.close()
 
 
-Env: Any
-Box: Any
-Dict: Any
+Env: Any = _Env
+Box: Any = _Box
+Dict: Any = _Dict
 try:
     _gymnasium = importlib.import_module("gymnasium")
     Env, Box, Dict = _gymnasium.Env, _gymnasium.spaces.Box, _gymnasium.spaces.Dict
 except ImportError:
-    Env, Box, Dict = _Env, _Box, _Dict
+    pass

@@ -34,9 +34,10 @@ class Lumen:
     """An environment in which wires go from a start to targets: what all catheters in it can share.
 
     start: a point, or the name of a group of cells or facets.
-    targets: points or names; by default all other groups, or the ends of all branches where there are none.
+    targets: points or names; by default all other groups or, where there is none, the ends of all branches.
 
-    `names` of the targets; `lines`, a centre line (N, 3) from the start to each of them; `reaches`, the distance of each from all walls.
+    names, lines: of targets, and the centre line (N, 3) from the start to each; left: the way from its points to the end; reaches: the
+    distances of the targets from all walls.
     """
 
     def __init__(self, environment: Environment, start: Union[str, ArrayLike], targets: Optional[Sequence[Union[str, ArrayLike]]] = None) -> None:
@@ -46,12 +47,10 @@ class Lumen:
         self._read(environment)
         cell, self.entry = self._place("start", start)
         cost = self._distances([cell], self._costs)
-        if targets is None:
-            targets = [name for name in environment.groups if name != start]
-        if len(targets) > 0:
-            self.names = [given if isinstance(given, str) else f"target {i + 1}" for i, given in enumerate(targets)]
-            places = [self._place(name, given) for name, given in zip(self.names, targets)]
-        else:
+        given = [name for name in environment.groups if name != start] if targets is None else list(targets)
+        self.names = [place if isinstance(place, str) else f"target {i + 1}" for i, place in enumerate(given)]
+        places = [self._place(name, place) for name, place in zip(self.names, given)]
+        if not given:
             places = [self._widest_near([end]) for end in self._ends(cell, cost)]
             self.names = [f"end {i + 1}" for i in range(len(places))]
         for name, (goal, _) in zip(self.names, places):
@@ -59,9 +58,9 @@ class Lumen:
                 raise OutsideError(f"Lumen(): {name} is not connected with the start")
         paths = [self._path(goal, cost) for goal, _ in places]
         step = float(numpy.median(self._width[numpy.concatenate(paths)])) / 2
-        self.step = step
         self.lines = [self._line(path, point, step) for path, (_, point) in zip(paths, places)]
-        self.reaches = [self._clearance(line[-1], self._width[path[0]]) for line, path in zip(self.lines, paths)]
+        self.left = [numpy.concatenate([numpy.cumsum(lengths(line[1:] - line[:-1])[::-1])[::-1], [0.0]]) for line in self.lines]
+        self.reaches = [self._clearance(point, self._width[goal]) for goal, point in places]
         ahead = self.lines[0][min(2, len(self.lines[0]) - 1)] - self.entry
         self.direction: _Array = ahead / lengths(ahead[None])
         del self._first, self._links, self._link_lengths, self._costs, self._means, self._width

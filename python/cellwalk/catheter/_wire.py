@@ -60,32 +60,22 @@ def _times(first: tuple[float, float], second: tuple[float, float]) -> tuple[flo
 def _smoothers(count: int, stiffness: float) -> list[_Array]:
     """For each number of vertices inside, the inverse of 1 + stiffness D'D, where D takes second differences.
 
-    By elimination from the tip on, whose factors all of them share.
+    Each is the former one, bordered by the row of a further vertex.
     """
     full = numpy.eye(count + 2)
     for j in range(1, count + 1):
         row = numpy.zeros(count + 2)
         row[j - 1 : j + 2] = 1, -2, 1
         full += stiffness * row[:, None] * row
-    lower, pivots = numpy.eye(count), numpy.zeros(count)
-    for i in range(count):
-        for j in range(max(0, i - 2), i):
-            value = full[i, j]
-            for m in range(max(0, i - 2), j):
-                value -= lower[i, m] * pivots[m] * lower[j, m]
-            lower[i, j] = value / pivots[j]
-        pivots[i] = full[i, i] - sum(lower[i, m] * lower[i, m] * pivots[m] for m in range(max(0, i - 2), i))
     result = [numpy.zeros((0, 0))]
-    for n in range(1, count + 1):
-        x = numpy.eye(n)
-        for i in range(n):
-            for j in range(max(0, i - 2), i):
-                x[i] -= lower[i, j] * x[j]
-        x /= pivots[:n, None]
-        for i in range(n - 1, -1, -1):
-            for j in range(i + 1, min(n, i + 3)):
-                x[i] -= lower[j, i] * x[j]
-        result.append(x)
+    for n in range(count):
+        border = (result[n] * full[n, :n]).sum(axis=1)
+        rest = full[n, n] - (full[n, :n] * border).sum()
+        larger = numpy.empty((n + 1, n + 1))
+        larger[:n, :n] = result[n] + border[:, None] * border / rest
+        larger[:n, n] = larger[n, :n] = -border / rest
+        larger[n, n] = 1 / rest
+        result.append(larger)
     return result
 
 
@@ -235,6 +225,6 @@ class Wire:
         if n == 0:
             return self._starts[:count].copy()
         at = self.length * numpy.arange(count - 1, -1, -1) / (count - 1)
-        before = numpy.minimum(numpy.maximum(n - numpy.searchsorted(along[n::-1], at, side="right"), 0) , n - 1)
+        before = numpy.minimum(numpy.maximum(n - numpy.searchsorted(along[n::-1], at, side="right"), 0), n - 1)
         share = (at - along[before + 1]) / numpy.maximum(along[before] - along[before + 1], 1e-300)
         return numpy.ascontiguousarray(((1 - share) * x[:, before + 1] + share * x[:, before]).T)
