@@ -62,7 +62,7 @@ class Build(build_ext):
 (ROOT / "build").mkdir(exist_ok=True)
 setup(
     version=version(),
-    packages=["cellwalk"],
+    packages=["cellwalk", "cellwalk.catheter"],
     package_dir={"cellwalk": "python/cellwalk"},
     package_data={"cellwalk": ["*.pyi", "py.typed"]},
     ext_modules=[Extension("cellwalk._cellwalk", [])],

@@ -4,8 +4,6 @@
 >>> import cellwalk, cellwalk.catheter
 >>> vessel = cellwalk.Environment.generate("vessel", generations=1)
 >>> lumen = cellwalk.catheter.Lumen(vessel, start=(0, 0, 0.2))
->>> lumen.names
-['end 1', 'end 2']
 >>> env = cellwalk.catheter.CatheterEnv(lumen, radius=0.1)
 >>> observation, info = env.reset(seed=1)
 >>> observation, reward, terminated, truncated, info = env.step([1, 0])

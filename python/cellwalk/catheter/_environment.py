@@ -51,10 +51,11 @@ class CatheterEnv(Env):  # type: ignore[misc]
         for name, size, most in (("spacing", spacing, math.inf), ("stiffness", stiffness, math.inf), ("tip_length", tip_length, math.inf),
                                  ("tip_degrees", tip_degrees, 180.0), ("most_push", most_push, spacing), ("most_turn", most_turn, 180.0)):
             if not (0 <= size <= most and math.isfinite(size)) or spacing == 0:
-                raise UsageError(f"CatheterEnv(): {name} is {size}: a finite number from 0 to {most} is needed, and a spacing that is not 0")
+                raise UsageError(f"CatheterEnv(): {name} is {size}: a finite number from 0 to {most}, and a spacing above 0, are needed")
         self.lumen, self.most_push, self.most_turn, self.most_steps, self.render_mode = lumen, most_push, most_turn, most_steps, render_mode
         self.wire = Wire(lumen.environment, lumen.entry, lumen.direction, vertices=vertices, spacing=spacing, radius=radius,
                          stiffness=stiffness, tip_length=tip_length, tip_angle=tip_degrees * _RADIANS)
+        self.body: Body = self.wire.body  # its tip first
         self._reward, self._ahead, self._parts = reward, 2 * numpy.arange(1, path_points + 1), shape_points
         self._steps, self._is_over = 0, True
         corners = lumen.environment.points.min(axis=0), lumen.environment.points.max(axis=0)
@@ -69,21 +70,17 @@ class CatheterEnv(Env):  # type: ignore[misc]
             "inserted": Box(0.0, vertices * spacing, (1,), numpy.float64), "path": places(path_points), "target": places(),
         })
 
-    @property
-    def body(self) -> Body:
-        """The wire, its tip first, for pictures and judges."""
-        return self.wire.body
-
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None) -> tuple[dict[str, Any], dict[str, Any]]:
         super().reset(seed=seed)
-        names, chosen = self.lumen.names, {"target": int(self.np_random.integers(len(self.lumen.names))),
-                                           "turn": float(self.np_random.uniform(-180.0, 180.0)), **(options or {})}
+        names: list[Any] = self.lumen.names
+        drawn = {"target": int(self.np_random.integers(len(names))), "turn": float(self.np_random.uniform(-180.0, 180.0))}
+        chosen: dict[str, Any] = {**drawn, **(options or {})}
         target, turn = chosen.pop("target"), chosen.pop("turn")
         target = names.index(target) if target in names else target
         if chosen or target not in range(len(names)) or not -180 <= turn <= 180:
             raise UsageError(f"reset(): options are {options}: target, one of {names} or its number, and turn, from -180 to 180, are known")
         self.target, self._at, self._steps, self._is_over = int(target), 0, 0, False
-        self.wire.restart(turned(turn * _RADIANS))
+        self.body = self.wire.restart(turned(turn * _RADIANS))
         self._remaining = self._follow(self.body.positions[0])
         none = numpy.zeros(0, dtype=[("vertex", numpy.uint32)])
         return self._observation(none), self._info(none, 0.0, False)
@@ -105,10 +102,8 @@ class CatheterEnv(Env):  # type: ignore[misc]
         return observation, float(self._reward(observation, info)), arrived, truncated, info
 
     def render(self) -> Optional[str]:
-        if self.render_mode is None:
-            return None
-        tip = ", ".join(f"{x:.3f}" for x in self.body.positions[0])
-        return f"step {self._steps}: {self.wire.inside:.3f} inside, tip at ({tip}), {self._remaining:.3f} from {self.lumen.names[self.target]}"
+        way = f"{self.wire.inside:.3f} inside, {self._remaining:.3f} from {self.lumen.names[self.target]}"
+        return None if self.render_mode is None else f"step {self._steps}: {way}"
 
     def _follow(self, tip: NDArray[numpy.float64]) -> float:
         """How far the tip has to go along the centre line. Its place there is near the one before."""

@@ -2,7 +2,7 @@
 """What environments need of Gymnasium: the classes of the package where it is installed, else small ones that do the same."""
 
 import importlib
-from typing import Any, Iterator, Mapping, Optional
+from typing import Any, Mapping, Optional
 
 import numpy
 
@@ -27,14 +27,9 @@ class _Box:
 
     __contains__ = contains
 
-    def __repr__(self) -> str:
-        return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
-
 
 class _Dict:
     """A space for each name."""
-
-    shape = dtype = None
 
     def __init__(self, spaces: Mapping[str, Any]) -> None:
         self.spaces = dict(spaces)
@@ -54,17 +49,10 @@ class _Dict:
     def __getitem__(self, name: str) -> Any:
         return self.spaces[name]
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.spaces)
-
-    def __repr__(self) -> str:
-        return f"Dict({self.spaces})"
-
 
 class _Env:
     """Random numbers, and what wrappers expect."""
 
-    spec: Any = None
     _np_random: Optional[numpy.random.Generator] = None
 
     @property
@@ -83,12 +71,6 @@ class _Env:
 
     def close(self) -> None:
         pass
-
-    def __enter__(self) -> Any:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self.close()
 
 
 Env: Any = _Env

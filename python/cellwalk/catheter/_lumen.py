@@ -6,7 +6,7 @@ All distances are along the means of neighbouring cells. Centre lines are for gu
 
 import heapq
 import math
-from typing import Optional, Sequence, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from .. import Environment, OutsideError, Place, UsageError
 
 _Array = NDArray[numpy.float64]
+_Place = Union[str, ArrayLike]
 
 
-def lengths(vectors: _Array) -> _Array:
+def lengths(vectors: _Array) -> Any:
     x, y, z = vectors.T
     return numpy.sqrt(x * x + y * y + z * z)
 
@@ -27,7 +28,8 @@ def evenly(points: _Array, distance: float) -> _Array:
     at = numpy.linspace(0, along[-1], max(2, int(numpy.ceil(along[-1] / distance)) + 1))
     k = numpy.clip(numpy.searchsorted(along, at) - 1, 0, len(points) - 2)
     share = ((at - along[k]) / numpy.maximum(along[k + 1] - along[k], 1e-300))[:, None]
-    return (1 - share) * points[k] + share * points[k + 1]
+    line: _Array = (1 - share) * points[k] + share * points[k + 1]
+    return line
 
 
 class Lumen:
@@ -40,14 +42,14 @@ class Lumen:
     distances of the targets from all walls.
     """
 
-    def __init__(self, environment: Environment, start: Union[str, ArrayLike], targets: Optional[Sequence[Union[str, ArrayLike]]] = None) -> None:
+    def __init__(self, environment: Environment, start: _Place, targets: Optional[Sequence[_Place]] = None) -> None:
         if environment.dimension != 3:
             raise UsageError("Lumen(): the environment has 2 dimensions: wires need 3")
         self.environment = environment
         self._read(environment)
         cell, self.entry = self._place("start", start)
         cost = self._distances([cell], self._costs)
-        given = [name for name in environment.groups if name != start] if targets is None else list(targets)
+        given: list[Any] = [name for name in environment.groups if name != start] if targets is None else list(targets)
         self.names = [place if isinstance(place, str) else f"target {i + 1}" for i, place in enumerate(given)]
         places = [self._place(name, place) for name, place in zip(self.names, given)]
         if not given:
@@ -60,7 +62,9 @@ class Lumen:
         step = float(numpy.median(self._width[numpy.concatenate(paths)])) / 2
         self.lines = [self._line(path, point, step) for path, (_, point) in zip(paths, places)]
         self.left = [numpy.concatenate([numpy.cumsum(lengths(line[1:] - line[:-1])[::-1])[::-1], [0.0]]) for line in self.lines]
-        self.reaches = [self._clearance(point, self._width[goal]) for goal, point in places]
+        wide = self._width[[goal for goal, _ in places]]
+        at = numpy.array([point for _, point in places])
+        self.reaches = numpy.fmin(environment.walk(at, at, radius=wide, threads=1).distance, wide).tolist()
         ahead = self.lines[0][min(2, len(self.lines[0]) - 1)] - self.entry
         self.direction: _Array = ahead / lengths(ahead[None])
         del self._first, self._links, self._link_lengths, self._costs, self._means, self._width
@@ -80,40 +84,35 @@ class Lumen:
         for side in ("cell", "neighbour"):
             beside = walls[walls[side] >= 0]
             numpy.minimum.at(known, beside[side], lengths(self._means[beside[side]] - beside["mean"]))
-        width = known.tolist()
-        self._spread(width, numpy.flatnonzero(numpy.isfinite(known)).tolist(), self._link_lengths)
-        self._width = numpy.array(width)
+        beside_walls = numpy.flatnonzero(numpy.isfinite(known)).tolist()
+        self._width = numpy.array(self._distances(beside_walls, self._link_lengths, known=known.tolist()))
+        self._width[numpy.isinf(self._width)] = 0
         self._costs = (link_lengths * (1 / self._width[links] + 1 / self._width[cells]) / 2).tolist()
 
-    def _spread(self, distance: list[float], sources: list[int], link_lengths: list[float], limit: float = math.inf) -> None:
-        """Lowers distances up to a limit, if cells are nearer by way of the sources, whose own are given (Dijkstra)."""
+    def _distances(self, sources: list[int], link_lengths: list[float], limit: float = math.inf,
+                   known: Optional[list[float]] = None) -> list[float]:
+        """The least distances of cells from the sources (Dijkstra), or, where they are less, `known` ones, the sources' among them."""
+        distance = [math.inf] * len(self._means) if known is None else known
+        for cell in sources:
+            distance[cell] = distance[cell] if known is not None else 0.0
         queue = [(distance[cell], cell) for cell in sources]
         heapq.heapify(queue)
         while queue:
             so_far, cell = heapq.heappop(queue)
-            if so_far > distance[cell]:
-                continue
-            for k in range(self._first[cell], self._first[cell + 1]):
+            for k in range(self._first[cell], self._first[cell + 1] if so_far <= distance[cell] else 0):
                 longer = so_far + link_lengths[k]
                 if longer < distance[self._links[k]] and longer <= limit:
                     distance[self._links[k]] = longer
                     heapq.heappush(queue, (longer, self._links[k]))
-
-    def _distances(self, sources: list[int], link_lengths: list[float], limit: float = math.inf) -> list[float]:
-        distance = [math.inf] * len(self._means)
-        for cell in sources:
-            distance[cell] = 0.0
-        self._spread(distance, sources, link_lengths, limit)
         return distance
 
     def _widest_near(self, cells: list[int]) -> tuple[int, _Array]:
         """The middle of the lumen at some cells: the widest cell that is not farther from them than two of its own distances from walls."""
-        finite = numpy.where(numpy.isfinite(self._width), self._width, 0)
-        near = numpy.array(self._distances(cells, self._link_lengths, 2 * float(finite.max()))) <= 2 * finite
-        cell = int(numpy.argmax(numpy.where(near, finite, -1)))
+        near = numpy.array(self._distances(cells, self._link_lengths, 2 * float(self._width.max()))) <= 2 * self._width
+        cell = int(numpy.argmax(numpy.where(near, self._width, -1)))
         return cell, self._means[cell]
 
-    def _place(self, name: str, given: Union[str, ArrayLike]) -> tuple[int, _Array]:
+    def _place(self, name: str, given: _Place) -> tuple[int, _Array]:
         if isinstance(given, str):
             group = self.environment.select(group=given)
             cells = numpy.concatenate([group.cells["cell"], group.facets["cell"], group.facets["neighbour"]])
@@ -140,23 +139,16 @@ class Lumen:
         distance = self._distances([start], self._link_lengths)
         within = numpy.isfinite(distance)
         least = 2 * float(self._width[within].max())
-        while True:
-            end = int(numpy.argmax(numpy.where(within, distance, -1)))
-            if ends and distance[end] < least:
-                return ends
+        while (end := int(numpy.argmax(numpy.where(within, distance, -1)))) not in ends and (not ends or distance[end] >= least):
             ends.append(end)
             path = self._path(end, cost)
             for at in path:
                 distance[at] = 0.0
-            self._spread(distance, path, self._link_lengths)
+            self._distances(path, self._link_lengths, known=distance)
+        return ends
 
     def _line(self, path: list[int], goal: _Array, step: float) -> _Array:
         line = evenly(numpy.concatenate([self.entry[None], self._means[path[::-1][1:-1]], goal[None]]), step)
         for _ in range(8):
             line[1:-1] = (line[:-2] + 2 * line[1:-1] + line[2:]) / 4
         return evenly(line, step)
-
-    def _clearance(self, point: _Array, up_to: float) -> float:
-        at = point[None].copy()
-        distance = float(self.environment.walk(at, at, radius=float(up_to), threads=1).distance[0])
-        return float(up_to) if numpy.isnan(distance) else distance

@@ -42,14 +42,13 @@ def _cross(a: Any, b: Any) -> Any:
 def _carried(v: Any, start: Any, end: Any) -> Any:
     """A vector across a unit direction, taken to one across another, or others, by the least rotation."""
     axis, cosine = _cross(start, end), _dot(start, end)
-    aside, share = _cross(axis, v), _dot(axis, v) / (1 + cosine + 1e-300)
-    return tuple(cosine * v[k] + aside[k] + share * axis[k] for k in range(3))
+    share = _dot(axis, v) / (1 + cosine + 1e-300)
+    return tuple(cosine * c + aside + share * along for c, aside, along in zip(v, _cross(axis, v), axis))
 
 
 def _turned(v: Any, axis: Any, turn: tuple[float, float]) -> Any:
     """A vector across an axis, turned about it."""
-    aside = _cross(axis, v)
-    return tuple(turn[0] * v[k] + turn[1] * aside[k] for k in range(3))
+    return tuple(turn[0] * along + turn[1] * aside for along, aside in zip(v, _cross(axis, v)))
 
 
 def _times(first: tuple[float, float], second: tuple[float, float]) -> tuple[float, float]:
@@ -62,11 +61,8 @@ def _smoothers(count: int, stiffness: float) -> list[_Array]:
 
     Each is the former one, bordered by the row of a further vertex.
     """
-    full = numpy.eye(count + 2)
-    for j in range(1, count + 1):
-        row = numpy.zeros(count + 2)
-        row[j - 1 : j + 2] = 1, -2, 1
-        full += stiffness * row[:, None] * row
+    second = numpy.eye(count, count + 2) - 2 * numpy.eye(count, count + 2, 1) + numpy.eye(count, count + 2, 2)
+    full = numpy.eye(count + 2) + stiffness * (second[:, :, None] * second[:, None]).sum(axis=0)
     result = [numpy.zeros((0, 0))]
     for n in range(count):
         border = (result[n] * full[n, :n]).sum(axis=1)
@@ -95,20 +91,17 @@ class Wire:
         self._bends = min(vertices - 2, int(tip_length / spacing))  # vertices at which it is curved by nature
         cosine, sine = turned(tip_angle / max(1, self._bends) / 2)
         self._towards_side, self._back = 2 * spacing * sine * cosine, 2 * spacing * sine * sine
-        least = [0.0, 0.0, 0.0]
-        least[int(numpy.argmin(numpy.abs(self._guide)))] = 1.0
-        side = _cross(self._guide_floats, least)
-        size = math.sqrt(_dot(side, side))
-        self._side = tuple(c / size for c in side)
-        self.indices = numpy.arange(vertices)
+        side = _cross(self._guide_floats, numpy.eye(3)[numpy.argmin(numpy.abs(self._guide))].tolist())
+        self._side = tuple(c / math.sqrt(_dot(side, side)) for c in side)
         self.restart((1.0, 0.0))
 
-    def restart(self, turn: tuple[float, float]) -> None:
+    def restart(self, turn: tuple[float, float]) -> Body:
         """Everything at the entry. turn: cosine and sine of the angle of the base."""
         self.body = Body(self._environment, self._starts, self._edges, radius=self.radius)
         self.inside, self.turn, self.slipped = 0.0, turn, 0.0
         self._normals, self._held = numpy.zeros((self.vertices, 3)), numpy.zeros(self.vertices, dtype=numpy.int64)
         self._look()
+        return self.body
 
     @property
     def count(self) -> int:
@@ -117,25 +110,22 @@ class Wire:
 
     def step(self, push: float, turn: float) -> NDArray[numpy.void]:
         """Pushes the base by a length, turns it by an angle, and moves the wire as far as walls allow. Returns the contacts."""
-        x, n, spacing = self._x, self._x.shape[1] - 2, self.spacing
+        x, n, spacing, targets = self._x, self._x.shape[1] - 2, self.spacing, self._starts.copy()
         self.turn = _times(self.turn, turned(turn))
         if n > 0:
             x[:, :-2] = self._relaxed()
         self._drive(push)
-        tangents, along = self._chain(x)
+        (tangents, along), count = self._chain(x), self.count
         # Each vertex goes along the wire to its place. The first link goes on beyond the tip.
-        count = self.count
-        place = self.inside - spacing * self.indices[:count]
+        place = self.inside - spacing * numpy.arange(count)
         both, most = min(n, count), 2 * abs(push) + spacing / 8
         place[:both] = numpy.minimum(numpy.maximum(place[:both], along[:both] - most), along[:both] + most)
         link = n - numpy.searchsorted(along[n::-1], place, side="right")
         link = numpy.maximum(link, 0) if n > 0 else link + 1  # if nothing is inside: the link of the guide
-        targets = self._starts.copy()
         after = numpy.minimum(link + 1, n)
         targets[:count] = (x[:, after] + (place - along[after]) * tangents[:, link]).T
         contacts = self.body.step(self._beside_walls(targets))
-        met = contacts["vertex"]
-        self._normals[met], self._held[met] = contacts["normal"], _HELD
+        self._normals[contacts["vertex"]], self._held[contacts["vertex"]] = contacts["normal"], _HELD
         self._look()
         return contacts
 
@@ -147,16 +137,14 @@ class Wire:
 
     def _drive(self, push: float) -> None:
         """The base moves, unless that would compress or stretch the wire further than the drive holds it."""
-        slack = _SLACK * self.spacing
-        inside = min(max(self.inside + push, 0.0), (self.vertices - 1) * self.spacing)
-        inside = max(min(inside, max(self.inside, self.length + slack)), min(self.inside, self.length - slack))
-        self.slipped = self.inside + push - inside
-        self.inside = inside
+        slack, wanted = _SLACK * self.spacing, self.inside + push
+        inside = min(max(wanted, 0.0), (self.vertices - 1) * self.spacing)
+        self.inside = max(min(inside, max(self.inside, self.length + slack)), min(self.inside, self.length - slack))
+        self.slipped = wanted - self.inside
 
     def _look(self) -> None:
         """The shape as it is: coordinates from the tip to the base, then the entry and a point of the guide."""
-        n = self.count
-        x = numpy.empty((3, n + 2))
+        x, n = numpy.empty((3, self.count + 2)), self.count
         x[:, :n], x[:, n], x[:, n + 1] = self.body.positions[:n].T, self._entry, self._entry - self.spacing * self._guide
         self._x, (self._tangents, self._along) = x, self._chain(x)
         self.length = float(self._along[0])
@@ -199,8 +187,7 @@ class Wire:
             sides = _carried(_turned(self._bend_side, last, self.turn), last, back)
             for k in range(3):
                 force[k, 1 : bends + 1] = self._towards_side * sides[k] - self._back * back[k]
-        # The guide holds the next two vertices.
-        behind = self._entry + (self.inside - n * self.spacing) * self._guide
+        behind = self._entry + (self.inside - n * self.spacing) * self._guide  # where the guide holds the next vertex, and another one
         force[:, n] += behind + self.spacing * self._guide
         if n > 1:
             force[:, n - 1] -= behind
@@ -216,8 +203,7 @@ class Wire:
         """The direction of the tip, and the side to which it is curved."""
         last, end = tuple(self._tangents[:, self._bent].tolist()), tuple(self._tangents[:, 0].tolist())
         side = _carried(_turned(self._bend_side, last, self.turn), last, end)
-        size = math.sqrt(_dot(side, side))
-        return numpy.array(end), numpy.array([c / size for c in side])
+        return numpy.array(end), numpy.array([c / math.sqrt(_dot(side, side)) for c in side])
 
     def shape(self, count: int) -> _Array:
         """Points at equal distances along the wire inside, from the tip to the entry: (count, 3)."""
