@@ -82,8 +82,8 @@ class CatheterEnv(Env):  # type: ignore[misc]
         self.target, self._at, self._steps, self._is_over = int(target), 0, 0, False
         self.body = self.wire.restart(turned(turn * _RADIANS))
         self._remaining = self._follow(self.body.positions[0])
-        none = numpy.zeros(0, dtype=[("vertex", numpy.uint32)])
-        return self._observation(none), self._info(none, 0.0, False)
+        self.contacts = self.body.step(self.body.positions)  # none
+        return self._observation(), self._info(0.0, False)
 
     def step(self, action: ArrayLike) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         if self._is_over:
@@ -92,13 +92,13 @@ class CatheterEnv(Env):  # type: ignore[misc]
         if numbers.shape != (2,) or not numpy.isfinite(numbers).all():
             raise InputError(f"step(): the action is {action!r}: two finite numbers, the push and the turn, are needed")
         push, turn = (min(1.0, max(-1.0, number)) for number in numbers.tolist())
-        contacts = self.wire.step(push * self.most_push, turn * self.most_turn * _RADIANS)
+        self.contacts = self.wire.step(push * self.most_push, turn * self.most_turn * _RADIANS)
         tip, before = self.body.positions[0], self._remaining
         self._remaining, self._steps = self._follow(tip), self._steps + 1
         arrived = bool(((tip - self.lumen.lines[self.target][-1]) ** 2).sum() < self.lumen.reaches[self.target] ** 2)
         truncated = self._steps >= self.most_steps and not arrived
         self._is_over = arrived or truncated
-        observation, info = self._observation(contacts), self._info(contacts, before - self._remaining, arrived)
+        observation, info = self._observation(), self._info(before - self._remaining, arrived)
         return observation, float(self._reward(observation, info)), arrived, truncated, info
 
     def render(self) -> Optional[str]:
@@ -112,9 +112,9 @@ class CatheterEnv(Env):  # type: ignore[misc]
         self._at = first + int(squares.argmin())
         return float(self.lumen.left[self.target][self._at] + numpy.sqrt(squares.min()))
 
-    def _observation(self, contacts: NDArray[numpy.void]) -> dict[str, Any]:
+    def _observation(self) -> dict[str, Any]:
         wire, line = self.wire, self.lumen.lines[self.target]
-        (direction, curve), met = wire.heading(), numpy.unique(contacts["vertex"])
+        (direction, curve), met = wire.heading(), numpy.unique(self.contacts["vertex"])
         return {
             "tip": self.body.positions[0].copy(), "direction": direction, "curve": curve, "shape": wire.shape(self._parts),
             "contacts": numpy.bincount(met * self._parts // max(1, wire.count), minlength=self._parts).astype(float),
@@ -122,6 +122,6 @@ class CatheterEnv(Env):  # type: ignore[misc]
             "target": line[-1].copy(),
         }
 
-    def _info(self, contacts: NDArray[numpy.void], gained: float, arrived: bool) -> dict[str, Any]:
+    def _info(self, gained: float, arrived: bool) -> dict[str, Any]:
         return {"target": self.lumen.names[self.target], "remaining": self._remaining, "gained": gained, "is_success": arrived,
-                "contacts": contacts, "slipped": self.wire.slipped}
+                "contacts": self.contacts["point"], "normals": self.contacts["normal"], "slipped": self.wire.slipped}

@@ -36,7 +36,7 @@ class Lumen:
     """An environment in which wires go from a start to targets: what all catheters in it can share.
 
     start: a point, or the name of a group of cells or facets.
-    targets: points or names; by default all other groups or, where there is none, the ends of all branches.
+    targets: points or names; by default all other groups of facets or, where there is none, the ends of all branches.
 
     names, lines: of targets, and the centre line (N, 3) from the start to each; left: the way from its points to the end; reaches: the
     distances of the targets from all walls.
@@ -49,7 +49,8 @@ class Lumen:
         self._read(environment)
         cell, self.entry = self._place("start", start)
         cost = self._distances([cell], self._costs)
-        given: list[Any] = [name for name in environment.groups if name != start] if targets is None else list(targets)
+        surfaces = [name for name in environment.groups if name != start and len(environment.select(group=name).cells) == 0]
+        given: list[Any] = surfaces if targets is None else list(targets)
         self.names = [place if isinstance(place, str) else f"target {i + 1}" for i, place in enumerate(given)]
         places = [self._place(name, place) for name, place in zip(self.names, given)]
         if not given:
@@ -62,8 +63,7 @@ class Lumen:
         step = float(numpy.median(self._width[numpy.concatenate(paths)])) / 2
         self.lines = [self._line(path, point, step) for path, (_, point) in zip(paths, places)]
         self.left = [numpy.concatenate([numpy.cumsum(lengths(line[1:] - line[:-1])[::-1])[::-1], [0.0]]) for line in self.lines]
-        wide = self._width[[goal for goal, _ in places]]
-        at = numpy.array([point for _, point in places])
+        wide, at = self._width[[goal for goal, _ in places]], numpy.array([point for _, point in places])
         self.reaches = numpy.fmin(environment.walk(at, at, radius=wide, threads=1).distance, wide).tolist()
         ahead = self.lines[0][min(2, len(self.lines[0]) - 1)] - self.entry
         self.direction: _Array = ahead / lengths(ahead[None])
