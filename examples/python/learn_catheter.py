@@ -64,7 +64,7 @@ def trial(task):
 
 
 def search(which, rounds, run):
-    """Yields, for each round, the middle of the policies, the steps so far, and the mean result of the best."""
+    """Yields, for each round, the middle of the best policies, the steps so far, and the share of targets that all policies reached."""
     rng, middle, spread, steps = numpy.random.default_rng(1), numpy.zeros(NUMBERS), numpy.ones(NUMBERS), 0
     for number in range(rounds):
         policies = middle + spread * rng.uniform(-math.sqrt(3), math.sqrt(3), size=(POLICIES, NUMBERS))
@@ -74,28 +74,28 @@ def search(which, rounds, run):
         best = sorted(range(POLICIES), key=lambda i: (-values[i], i))[:BEST]
         middle, spread = policies[best].mean(axis=0), 0.05 + policies[best].std(axis=0)
         steps += sum(count for result in results for _, _, count in result)
-        yield middle.tolist(), steps, sum(values[i] for i in best) / BEST
+        yield middle.tolist(), steps, sum(reached for result in results for _, reached, _ in result) / (POLICIES * EPISODES)
 
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
-    for name, default in (("processes", 2), ("rounds", 12), ("forks", 3), ("vertices", 100), ("trials", 96)):
+    for name, default in (("processes", 2), ("rounds", 8), ("forks", 3), ("vertices", 100), ("trials", 96)):
         parser.add_argument(f"--{name}", type=int, default=default)
     given = parser.parse_args()
     which, names = (given.forks, given.vertices), catheter(given.forks, given.vertices).lumen.names
     given.out.mkdir(parents=True, exist_ok=True)
     with multiprocessing.Pool(given.processes) as pool, open(given.out / "learning.csv", "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["round", "steps", "best", "reached", "trials", *(f"number_{k}" for k in range(NUMBERS))])
-        for number, (policy, steps, best) in enumerate(search(which, given.rounds, pool.map), 1):
+        table.writerow(["round", "steps", "reached_by_all", "reached", "trials", *(f"number_{k}" for k in range(NUMBERS))])
+        for number, (policy, steps, share) in enumerate(search(which, given.rounds, pool.map), 1):
             # Each policy meets targets and turns of the base that it has not seen: seeds of the search are less.
             last = number == given.rounds
             seeds = [10_000 + k for k in range(given.trials if last else given.trials // 4)]
             results = [result for rows in pool.map(trial, [(which, policy, [seed]) for seed in seeds]) for result in rows]
             reached = sum(reached for _, reached, _ in results)
-            table.writerow([number, steps, repr(best), reached, len(seeds), *map(repr, policy)])
-            print(f"round {number}: {steps} steps, the best policies gain {best:.3f}, their middle reaches {reached} of {len(seeds)} targets", flush=True)
+            table.writerow([number, steps, share, reached, len(seeds), *map(repr, policy)])
+            print(f"round {number}: {steps} steps, {share:.0%} of targets reached; the middle of the best reaches {reached} of {len(seeds)}", flush=True)
     env = catheter(*which)
     targets = [env.reset(seed=seed)[1]["target"] for seed in seeds]
     for name in names:

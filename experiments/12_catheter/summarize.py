@@ -15,8 +15,8 @@ from tables import interval, read_rows, read_rows_if_any, table  # noqa: E402
 
 
 def learning_table(rows):
-    return table(["round", "steps so far", "gain of the best", "targets reached"],
-                 [[r["round"], f'{int(r["steps"]):,}', f'{float(r["best"]):.2f}', f'{r["reached"]} of {r["trials"]}'] for r in rows])
+    return table(["round", "steps so far", "reached by all policies tried", "reached by the middle of the best"],
+                 [[r["round"], f'{int(r["steps"]):,}', f'{100 * float(r["reached_by_all"]):.0f} %', f'{r["reached"]} of {r["trials"]}'] for r in rows])
 
 
 def judged_table(rows, memory):
@@ -38,9 +38,9 @@ def success_plot(folder, rows):
         reached, trials = int(r["reached"]), int(r["trials"])
         low, high = interval(reached, trials)
         points.append((int(r["steps"]) / 1000, 100 * reached / trials, 100 * low, 100 * high))
-    gained = [(int(r["steps"]) / 1000, 50 * float(r["best"])) for r in rows]
-    script = plots.line_plot({"targets reached, unseen (bars: 95 %)": points, "gain of the best in the search": gained},
-                             "steps of the search, in thousands", "per cent", yrange="0:105")
+    tried = [(int(r["steps"]) / 1000, 100 * float(r["reached_by_all"])) for r in rows]
+    script = plots.line_plot({"the middle of the best policies, unseen episodes (bars: 95 %)": points, "all policies tried in the round": tried},
+                             "steps of the search, in thousands", "targets reached, in per cent", xrange="0:", yrange="0:105")
     return plots.draw(folder, "success", script)
 
 

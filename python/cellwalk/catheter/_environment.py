@@ -106,11 +106,11 @@ class CatheterEnv(Env):  # type: ignore[misc]
         return None if self.render_mode is None else f"step {self._steps}: {way}"
 
     def _follow(self, tip: NDArray[numpy.float64]) -> float:
-        """How far the tip has to go along the centre line. Its place there is near the one before."""
-        first = max(0, self._at - 3)
-        squares = ((self.lumen.lines[self.target][first : self._at + 4] - tip) ** 2).sum(axis=1)
-        self._at = first + int(squares.argmin())
-        return float(self.lumen.left[self.target][self._at] + numpy.sqrt(squares.min()))
+        """How far the tip has to go by the point of the centre line after the nearest, which is near the one before."""
+        line, first = self.lumen.lines[self.target], max(0, self._at - 3)
+        self._at = first + int(((line[first : self._at + 4] - tip) ** 2).sum(axis=1).argmin())
+        after = min(self._at + 1, len(line) - 1)
+        return float(self.lumen.left[self.target][after] + numpy.sqrt(((line[after] - tip) ** 2).sum()))
 
     def _observation(self) -> dict[str, Any]:
         wire, line = self.wire, self.lumen.lines[self.target]
