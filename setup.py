@@ -101,7 +101,7 @@ setup(
     version=BUILT["version"] + ("+meshing" if BUILT["meshing"] else ""),
     **{licence_field: LICENCE},
     install_requires=["numpy>=1.21" if is_numpy_2_known else "numpy>=1.21,<2"],
-    packages=["cellwalk"],
+    packages=["cellwalk", "cellwalk.catheter"],
     package_dir={"cellwalk": "python/cellwalk"},
     package_data={"cellwalk": ["*.pyi", "py.typed"]},
     ext_modules=[Extension("cellwalk._cellwalk", [])],

@@ -121,7 +121,7 @@ class Mypy(unittest.TestCase):
         return done.returncode, done.stdout + done.stderr
 
     def test_the_package_and_a_typed_example(self):
-        code, said = self.mypy(PACKAGE / "_cellwalk.pyi", *sorted(PACKAGE.glob("*.py")), pathlib.Path(os.environ["CELLWALK_EXAMPLES"]) / "arrays.py")
+        code, said = self.mypy(PACKAGE / "_cellwalk.pyi", *sorted(PACKAGE.rglob("*.py")), pathlib.Path(os.environ["CELLWALK_EXAMPLES"]) / "arrays.py")
         self.assertEqual(code, 0, said)
 
     def test_mistakes_are_found(self):

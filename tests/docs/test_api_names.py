@@ -13,7 +13,8 @@ import sys
 from pathlib import Path
 
 PAGE = Path("docs/api_by_task.md")
-PYTHON = ["python/cellwalk/_cellwalk.pyi", "python/cellwalk/_codes.py", "python/cellwalk/_errors.py"]
+PYTHON = ["python/cellwalk/_cellwalk.pyi", "python/cellwalk/_codes.py", "python/cellwalk/_errors.py", "python/cellwalk/catheter/_lumen.py",
+          "python/cellwalk/catheter/_environment.py"]
 FEWEST = {"C++": 60, "Python": 40}  # so that a test that finds nothing does not pass
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 TYPE = r"(?:class|struct|enum(?: class)?)\s+{}\b[^;{{]*\{{|using\s+{}\s*="
