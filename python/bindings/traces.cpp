@@ -234,7 +234,7 @@ constexpr const char* tally_doc =
     "weights: float64 (N,): of each motion, by which its lengths are multiplied; 1 without.\n"
     "out: a float64 array to which the sums are added, and which is returned.\n"
     "threads: 0: all cores. The results do not depend on it, to the bit: products are added exactly, "
-    "down to 2^-94 of the largest one that is possible.\n\n"
+    "down to 2^-93 of the largest one that is possible.\n\n"
     "Returns float64 by cell, as numbered everywhere. Motions that cannot be made add nothing.";
 
 }  // namespace

@@ -35,7 +35,7 @@ void Tally::add(std::size_t cell, double value) {
     units = mantissa << shift;
   else if (shift > -64)
     units = (mantissa + (Fixed{1} << (-shift - 1))) >> -shift;  // half a unit is rounded away from 0
-  sums_[cell] += value < 0 ? -units : units;
+  sums_[cell] += std::signbit(value) ? -units : units;
 }
 
 void Tally::add(const Tally& other) {

@@ -20,7 +20,7 @@ class Tally {
   /// \throw Error(usage) for another bound
   Tally(std::size_t cells, double largest);
 
-  /// Adds a value to the sum of a cell; what lies below 2^-94 of the bound is rounded.
+  /// Adds a value to the sum of a cell; what lies below 2^-93 of the bound is rounded.
   /// \pre cell < size(), |value| <= largest; at most 2^32 values are added to a cell
   /// Cost: 4 ns.
   void add(std::size_t cell, double value);
