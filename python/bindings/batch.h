@@ -3,6 +3,7 @@
 #ifndef CELLWALK_PYTHON_BATCH_H
 #define CELLWALK_PYTHON_BATCH_H
 
+#include <cellwalk/internal/kernel/gradual_underflow.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -19,8 +20,10 @@ inline std::size_t chunk_count(std::size_t rows) { return (rows + chunk_rows - 1
 
 /// Calls work(chunk, first row, row after the last) for every chunk.
 /// \pre threads >= 0; 0: as many as there are cores
+/// \throw Error(usage) if this thread flushes small numbers to zero
 template <class Work>
 void for_each_chunk(std::size_t rows, int threads, const Work& work) {
+  expect_gradual_underflow();
   const std::size_t chunks = chunk_count(rows);
   const auto run = [&](std::size_t chunk) {
     work(chunk, chunk * chunk_rows, std::min(rows, (chunk + 1) * chunk_rows));

@@ -3,6 +3,7 @@
 #include <cellwalk/body/body.h>
 #include <cellwalk/edge/contact_search.h>
 #include <cellwalk/internal/kernel/check_finite.h>
+#include <cellwalk/internal/kernel/gradual_underflow.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
@@ -68,6 +69,7 @@ template <int D>
 [[gnu::noinline]] void step_out_of_region(detail::Body_state<D>& body, std::span<const Point<D>> targets,
                                           const Body_options& options, Step_report<D>& report,
                                           Body_counts& counts) {
+  expect_gradual_underflow();
   if (!body.thick.are_none()) detail::check_thick_sweep(options.sweep);
   check_targets<D>(targets);
   if (options.sweep.search) [[unlikely]]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A tree of the boxes of cells, and the sides of walls at a point among the cells that hold it.
 #include <cellwalk/internal/kernel/check_finite.h>
+#include <cellwalk/internal/kernel/gradual_underflow.h>
 #include <cellwalk/internal/walk/link_search.h>
 #include <cellwalk/internal/walk/signs.h>
 #include <cellwalk/internal/walk/star.h>
@@ -68,7 +69,10 @@ struct Locator<D>::Index {
 };
 
 template <int D>
-Locator<D>::Locator(const Snapshot<D>& snapshot) : index_(std::make_unique<Index>(snapshot)) {}
+Locator<D>::Locator(const Snapshot<D>& snapshot) {
+  expect_gradual_underflow();
+  index_ = std::make_unique<Index>(snapshot);
+}
 
 template <int D>
 Locator<D>::~Locator() = default;
