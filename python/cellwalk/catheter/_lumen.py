@@ -120,7 +120,7 @@ class Lumen:
         point = numpy.array(given, dtype=float)
         if point.shape != (3,):
             raise UsageError(f"Lumen(): {name} has shape {point.shape}: a point of shape (3,), or the name of a group, is needed")
-        found = self.environment.locate(point[None])
+        found = self.environment.locate(point[None], threads=1)
         if found.status[0] != Place.FREE:
             raise OutsideError(f"Lumen(): {name} at {tuple(point.tolist())} is not in free space")
         return int(found.cell[0]), point
