@@ -51,8 +51,8 @@ Trace beginning(const Trace& trace, std::uint32_t steps) {
   return first;
 }
 
-/// Seconds of a replay. The clock starts when another trace, or a part of this one, has been replayed, so that
-/// no method pays for what the others left in the caches.
+/// Seconds of a replay. The clock starts when another trace, or a part of this one, has been replayed, so
+/// that no method pays for what the others left in the caches.
 double timed_replay(Peer& peer, const Trace& before, const Trace& trace, Answers& answers) {
   peer.prepare(before);
   peer.replay(before, std::span(answers).first(before.moves()));

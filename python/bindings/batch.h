@@ -4,6 +4,7 @@
 #define CELLWALK_PYTHON_BATCH_H
 
 #include <cellwalk/internal/kernel/gradual_underflow.h>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

@@ -10,7 +10,8 @@ void cellwalk::expect_gradual_underflow() {
   const volatile double least = std::numeric_limits<double>::denorm_min();
   const volatile double half = least_normal / 2;
   if (half == 0 || least * 2 == 0)
-    throw Error(Error_code::usage,
-                "this thread flushes numbers below 2.3e-308 to zero, so that no decision would be exact; code "
-                "that was linked with -ffast-math sets that when it is loaded: clear it in this thread");
+    throw Error(
+        Error_code::usage,
+        "this thread flushes numbers below 2.3e-308 to zero, so that no decision would be exact; code "
+        "that was linked with -ffast-math sets that when it is loaded: clear it in this thread");
 }

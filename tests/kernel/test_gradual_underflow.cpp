@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cellwalk/internal/kernel/gradual_underflow.h>
 #include <cellwalk/kernel/error.h>
+
 #include <gtest/gtest.h>
 #ifdef __SSE2__
 #include <xmmintrin.h>

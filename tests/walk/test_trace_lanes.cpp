@@ -157,7 +157,9 @@ TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
   while (particles.size() < detail::rows_of_block) {
     const bool is_at_vertex = particles.size() % 4 == 0, leaves = particles.size() % 2 == 0;
     const std::size_t corner = random_.below(snapshot_.points().size());
-    particles.push_back(locator_.particle_at(is_at_vertex ? snapshot_.point(static_cast<std::uint32_t>(corner)) : any_point()).value());
+    particles.push_back(
+        locator_.particle_at(is_at_vertex ? snapshot_.point(static_cast<std::uint32_t>(corner)) : any_point())
+            .value());
     targets.push_back(leaves ? 3.0 * any_point() - Vector<3>{6, 6, 6} : any_point());
     if (particles.size() % 8 != 1) continue;  // some through the inside of the cell of a vertex
     const Point<3> from = particles.back().position;

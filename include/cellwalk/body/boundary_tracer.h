@@ -50,8 +50,8 @@ class Boundary_tracer {
   /// \throw Error as Tracer::trace(), and Error(usage) for a negative number of bounces, with nothing changed
   /// Degenerate cases: at an edge or vertex the wall that blocks the motion (Contact::facet) reflects it; if
   /// that leads into another wall there, the next leg has no length. A joined wall blocks a motion if none of
-  /// the points near the other wall is in free space, and every wall does if the rest of the motion overflows:
-  /// targets within 2^1000 leave room for that.
+  /// the points near the other wall is in free space, and every wall does if the rest of the motion
+  /// overflows: targets within 2^1000 leave room for that.
   /// Cost: that of the walks, of each leg on its own, and for each bounce that of a stop at a contact.
   void trace(std::span<Particle<D>> particles, std::span<const Point<D>> targets, int most_bounces,
              Traces& traces, Walk_counts& counts, std::span<Vector<D>> headings = {}) const;
