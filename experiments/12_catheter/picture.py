@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Draws the vessel with a catheter at each target that the policy of learning.csv reaches.
+"""Draws the vessel with a catheter at each target that the best policy of learning.csv reaches.
 
 usage: picture.py DIR     reads learning.csv, and writes catheters.png into DIR
 """
@@ -18,8 +18,8 @@ from tables import read_rows  # noqa: E402
 
 def main():
     folder = Path(sys.argv[1])
-    last = read_rows(folder / "learning.csv")[-1]
-    numbers = [float(last[f"number_{k}"]) for k in range(learn_catheter.NUMBERS)]
+    best = max(read_rows(folder / "learning.csv"), key=lambda row: (int(row["reached"]), int(row["round"])))
+    numbers = [float(best[f"number_{k}"]) for k in range(learn_catheter.NUMBERS)]
     env, bodies, seed = learn_catheter.catheter(3, 100), {}, 0
     while len(bodies) < len(env.lumen.names) and seed < 1000:
         target = env.reset(seed=seed)[1]["target"]

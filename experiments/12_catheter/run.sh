@@ -17,7 +17,7 @@ PYTHONPATH=$(realpath "$build")/python
 export PYTHONPATH PYTHONDONTWRITEBYTECODE=1
 
 if $quick; then
-  search=(--rounds 3 --forks 1 --vertices 25 --trials 16) steps=1000
+  search=(--rounds 4 --forks 1 --vertices 25 --trials 16) steps=1000
 else
   search=() steps=1000000
 fi

@@ -19,6 +19,11 @@ def learning_table(rows):
                  [[r["round"], f'{int(r["steps"]):,}', f'{100 * float(r["reached_by_all"]):.0f} %', f'{r["reached"]} of {r["trials"]}'] for r in rows])
 
 
+def reached_table(rows):
+    reached, trials = (sum(int(r[c]) for r in rows) for c in ("reached", "trials"))
+    return table(["target", "reached"], [[r["target"], f'{r["reached"]} of {r["trials"]}'] for r in rows] + [["all", f"{reached} of {trials}"]])
+
+
 def judged_table(rows, memory):
     sums = [sum(int(r[c]) for r in rows) for c in ("steps", "episodes", "contacts", "pairs", "exact", "too_near", "through")]
     peak = [f'{int(m["kilobytes"]) / 1024:.0f}' for m in (memory[min(len(memory) - 1, 9)], memory[-1])]
@@ -40,14 +45,14 @@ def success_plot(folder, rows):
         points.append((int(r["steps"]) / 1000, 100 * reached / trials, 100 * low, 100 * high))
     tried = [(int(r["steps"]) / 1000, 100 * float(r["reached_by_all"])) for r in rows]
     script = plots.line_plot({"the middle of the best policies, unseen episodes (bars: 95 %)": points, "all policies tried in the round": tried},
-                             "steps of the search, in thousands", "targets reached, in per cent", xrange="0:", yrange="0:105")
+                             "steps of the search, in thousands", "targets reached, in per cent", xrange="0:", yrange="0:105", commands="set key inside right bottom\n")
     return plots.draw(folder, "success", script)
 
 
 def main():
     folder = Path(sys.argv[1])
     learned, judged = read_rows(folder / "learning.csv"), read_rows(folder / "judged.csv")
-    text = "## Learning\n\n" + learning_table(learned) + "\n## Judged steps\n\n" + judged_table(judged, read_rows(folder / "memory.csv"))
+    text = "## Learning\n\n" + learning_table(learned) + "\n" + reached_table(read_rows(folder / "reached.csv")) + "\n## Judged steps\n\n" + judged_table(judged, read_rows(folder / "memory.csv"))
     times = read_rows_if_any(folder / "times.csv")
     if times:
         text += "\n## Times\n\n" + time_table(times)

@@ -190,7 +190,7 @@ class Safety(unittest.TestCase):
             met += len(info["contacts"])
         env.body.validate()
         self.assertGreater(met, judge.steps / 4, "walls are met all the time")
-        self.assertGreater(judge.pairs, 50 * judge.steps)
+        self.assertGreater(judge.pairs, 20 * judge.steps)
 
     def test_the_judge_finds_what_is_wrong(self):
         env = wire_env(forks=1, vertices=60)

@@ -8,7 +8,7 @@
 >>> observation, info = env.reset(seed=1)
 >>> observation, reward, terminated, truncated, info = env.step([1, 0])
 >>> round(reward, 2)
-0.05
+0.07
 
 Gymnasium is not needed. Where it is installed, CatheterEnv is a gymnasium.Env, and its spaces are those of Gymnasium.
 """

@@ -49,8 +49,8 @@ class Lumen:
         self._read(environment)
         cell, self.entry = self._place("start", start)
         cost = self._distances([cell], self._costs)
-        surfaces = [name for name in environment.groups if name != start and len(environment.select(group=name).cells) == 0]
-        given: list[Any] = surfaces if targets is None else list(targets)
+        surfaces: list[Any] = [name for name in environment.groups if name != start and len(environment.select(group=name).cells) == 0]
+        given = surfaces if targets is None else [*targets]
         self.names = [place if isinstance(place, str) else f"target {i + 1}" for i, place in enumerate(given)]
         places = [self._place(name, place) for name, place in zip(self.names, given)]
         if not given:
