@@ -17,7 +17,7 @@ import cellwalk
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "python_reference.md"
 HEAD = """# Reference of the Python module
 
-Made from the module itself by `scripts/python_reference.py`. [A mesh from Python](tutorials/python.md) introduces it, [Embedding](embedding.md#python) says how it is installed, and
+Made from the module itself by `scripts/python_reference.py`. [A mesh from Python](tutorials/python.md) introduces it, [Embedding](embedding.md#from-python) says how it is installed, and
 [Functions by task](api_by_task.md) has its functions beside those of C++. Points are arrays of shape (N, 3), or (N, 2) in the plane.
 """
 
