@@ -8,6 +8,7 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh --for docs
 
 mkdir -p build/docs
+rm -rf build/docs/html  # with the pictures that were copied there, Doxygen would find some twice
 echo "docs: building build/docs/html"
 doxygen docs/Doxyfile
 if [ ! -s build/docs/html/index.html ]; then
@@ -24,5 +25,6 @@ grep -oh 'href="files/[^"]*"' build/docs/html/*.html | sort -u | sed 's/^href="f
   mkdir -p "build/docs/html/files/$(dirname "$file")"
   cp "${file%.txt}" "build/docs/html/files/$file"
 done
-echo "docs: no warnings; $(scripts/check_links.py build/docs/html)"
+links=$(scripts/check_links.py build/docs/html)
+echo "docs: no warnings; $links"
 echo "docs: open build/docs/html/index.html"
