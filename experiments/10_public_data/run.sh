@@ -13,16 +13,18 @@ targets=cellwalk
 # shellcheck source=experiments/common/run_options.sh
 . experiments/common/run_options.sh
 
+python=$(sed -n 's/^Python3_EXECUTABLE:[A-Z]*=//p' "$build/CMakeCache.txt")  # one that has NumPy, if the module was built
+python=${python:-python3}
 mkdir -p "$out/data"
 folders=("$out/data")
 options=()
 if $quick; then
-  python3 experiments/10_public_data/make_faulty.py "$out/data"
+  "$python" experiments/10_public_data/make_faulty.py "$out/data"
   options+=(--sources "$out/data/sources.json")
 elif [ -n "${CELLWALK_TEST_DATA:-}" ]; then
   folders+=("$CELLWALK_TEST_DATA")
 fi
 if ! $counts; then options+=(--times); fi
-python3 experiments/10_public_data/audit.py "$build/cellwalk" "$out" "${folders[@]}" "${options[@]}"
-python3 experiments/10_public_data/summarize.py "$out"
+"$python" experiments/10_public_data/audit.py "$build/cellwalk" "$out" "${folders[@]}" "${options[@]}"
+"$python" experiments/10_public_data/summarize.py "$out"
 echo "public data: $out/tables.md"
