@@ -2,6 +2,7 @@
 // Traces against the oracle: there are events of the motion between which each piece lies in its closed cell,
 // one piece after the other from the start to the end, and each length is the double nearest to the exact
 // one. In all worlds of the oracle, half of the motions degenerate.
+#include <cellwalk/generators/grid.h>
 #include <cellwalk/internal/environment/gluing.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/trace.h>
@@ -273,6 +274,38 @@ void test_calls() {
 TEST(Tracer, GivesTheSameRowsHoweverTheyAreDividedAmongCalls) {
   test_calls<2>();
   test_calls<3>();
+}
+
+TEST(Tracer, FollowsRowsThroughThousandsOfCells) {
+  Simplex_grid_options<3> options;
+  options.cells = {2000, 1, 1};
+  options.jitter = 0.12;
+  const Cell_soup<3> soup = tetrahedral_grid(options);
+  const Snapshot<3> snapshot = Snapshot<3>::compile(soup, glue(soup));
+  const Locator<3> locator(snapshot);
+  Random random(5);
+  const auto place = [&](double x) { return Point<3>{x, random.real(0.3, 0.7), random.real(0.3, 0.7)}; };
+  std::vector<Particle<3>> particles;
+  std::vector<Point<3>> targets;
+  for (int i = 0; i < 40; ++i) {
+    particles.push_back(locator.particle_at(place(1.5)).value());
+    targets.push_back(place(i % 4 == 0 ? 2.5 : 1998.5));
+  }
+  Walk_counts counts;
+  std::vector<std::vector<Cell>> expected;
+  std::vector<Particle<3>> walked = particles;
+  for (std::size_t i = 0; i < walked.size(); ++i) {
+    std::vector<Cell>& cells = expected.emplace_back();
+    ASSERT_EQ(walk(snapshot, walked[i], targets[i], counts, {&cells}).status, Walk_status::arrived);
+  }
+  Traces traces;
+  Tracer<3>(snapshot).trace(particles, targets, traces, counts);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const std::vector<Cell> cells(traces.cells.begin() + static_cast<std::ptrdiff_t>(traces.offsets[i]),
+                                  traces.cells.begin() + static_cast<std::ptrdiff_t>(traces.offsets[i + 1]));
+    EXPECT_EQ(cells, expected[i]) << i;
+    EXPECT_EQ(i % 4 != 0, cells.size() > 4000) << cells.size();
+  }
 }
 
 TEST(Tracer, RefusesAndLeavesAllAsItWas) {

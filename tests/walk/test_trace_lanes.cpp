@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -215,6 +217,49 @@ TEST_F(TraceLanes, LeaveLengthsOpenThatTheirErrorsDoNotRound) {
     std::swap(swapped[3], swapped[4]);  // a piece of negative length
     EXPECT_FALSE(Measured(particle->position, to, planes_, swapped, error, kind.functions).is_certain)
         << kind.name;
+  }
+}
+
+/// A tetrahedron at the origin with a needle for its third facet, moved and scaled.
+Snapshot<3> needle(double height, double scale, double offset) {
+  Cell_soup<3> soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {2, height, 0}, {1, 1, 1}};
+  for (Point<3>& p : soup.points)
+    for (double& x : p) x = scale * (x + offset);
+  for (const auto& facet :
+       std::vector<std::vector<std::uint32_t>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+    soup.add_facet(facet);
+  soup.end_cell();
+  return Snapshot<3>::compile(soup, glue(soup));
+}
+
+std::size_t known_planes(const detail::Lane_planes& planes) {
+  return static_cast<std::size_t>(
+      std::count_if(planes.planes.begin(), planes.planes.end(), [](const auto& plane) {
+        return std::any_of(plane.high, plane.high + 3, [](double x) { return x != 0; });
+      }));
+}
+
+TEST(LanePlanes, AreUnknownIfEachCornerIsThin) {
+  EXPECT_EQ(known_planes(detail::lane_planes(needle(1, 1, 0))), 4u);
+  EXPECT_EQ(known_planes(detail::lane_planes(needle(0x1p-20, 1, 0))), 3u);
+}
+
+TEST(LanePlanes, AreUnknownIfTermsOverflowOrUnderflow) {
+  for (const int power : {-100, 100})
+    EXPECT_EQ(known_planes(detail::lane_planes(needle(1, std::ldexp(1, power), 0))), 4u);
+  for (const int power : {-1000, -160, 160, 1000})
+    EXPECT_EQ(known_planes(detail::lane_planes(needle(1, std::ldexp(1, power), 0))), 0u) << power;
+  // Facets of usual sizes, far from the origin.
+  EXPECT_EQ(known_planes(detail::lane_planes(needle(1, 0x1p120, 0x1p40))), 0u);
+}
+
+TEST(LanePlanes, SizeBoundsCoordinates) {
+  for (const double offset : {0.0, 0x1p20, -0x1p40}) {
+    const Snapshot<3> snapshot = needle(1, 1, offset);
+    const double size = detail::lane_planes(snapshot).size;
+    for (const Point<3>& p : snapshot.points())
+      for (const double x : p) EXPECT_GE(size, std::abs(x));
   }
 }
 
