@@ -31,6 +31,27 @@ TEST(Fraction, IsComparedAndAddedLikeARational) {
   EXPECT_GT(equal, 500);
 }
 
+TEST(Fraction, RootsAreRoundedToNearestAndTiesToEven) {
+  Random random(6);
+  int ties = 0;
+  for (int k = 0; k < 5000; ++k) {
+    // Squares of doubles, of what lies halfway between two, and anything.
+    const double root = std::ldexp(random.real(1, 2), static_cast<int>(random.below(200)) - 100);
+    const double above = std::nextafter(root, HUGE_VAL);
+    const int kind = static_cast<int>(random.below(3));
+    const Ring twice = kind == 0 ? Ring(root) + Ring(root) : Ring(root) + Ring(above);
+    const Ring more = kind == 2 ? Ring(std::ldexp(root * random.real(-1, 1), -55)) : Ring(0);
+    const Fraction square{(twice + more) * (twice + more), Ring(4)};
+    const double found = root_to_nearest(square);
+    const bool is_even = std::fmod(std::ldexp(root, 52 - std::ilogb(root)), 2) == 0;
+    const bool is_up = kind == 1 ? !is_even : more > Ring(0);
+    const double near = is_up ? above : root;
+    EXPECT_EQ(found, near) << kind << ", " << root;
+    ties += kind == 1;
+  }
+  EXPECT_GT(ties, 1000);
+}
+
 TEST(Fraction, IsRoundedDownAsATimeAndTowardsZeroAsADouble) {
   Random random(4);
   int exact = 0;

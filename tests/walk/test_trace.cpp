@@ -327,6 +327,8 @@ TEST(Tracer, RefusesAndLeavesAllAsItWas) {
     }
     EXPECT_EQ(traces.size(), 0u);
     EXPECT_TRUE(traces.cells.empty());
+    EXPECT_TRUE(traces.lengths.empty());
+    EXPECT_TRUE(traces.crossings.empty());
     EXPECT_EQ(traces.offsets, std::vector<std::uint64_t>{0});
     for (std::size_t i = 0; i < starts.size(); ++i)
       EXPECT_EQ(batch.particles[i].position, starts[i].position);
