@@ -101,10 +101,10 @@ class Reader {
 
   void add_block(const py::handle& type, const py::handle& data) {
     const bool is_code = !py::isinstance<py::str>(type);
-    const Cell_type& known = is_code ? type_of_code(py::int_(py::reinterpret_borrow<py::object>(type)))
-                                     : type_of_name(type.cast<std::string>());
+    const Cell_type* const known = is_code ? &type_of_code(py::int_(py::reinterpret_borrow<py::object>(type)))
+                                           : &type_of_name(type.cast<std::string>());
     const std::string name = fmt::format("{}[{}]", name_, std::string(py::repr(type)));
-    known.code == vtk_polyhedron ? add_polyhedra(data, name) : add_table(data, name, known, is_code);
+    known->code == vtk_polyhedron ? add_polyhedra(data, name) : add_table(data, name, *known, is_code);
   }
 
   /// Cells one after the other, each after the number of its corners.
