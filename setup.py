@@ -93,14 +93,14 @@ def platform_tag():
 (ROOT / "build").mkdir(exist_ok=True)
 TREE, BUILT = build_tree()
 LICENCE = "GPL-3.0-or-later AND AGPL-3.0-or-later" if BUILT["meshing"] else "LGPL-3.0-or-later"
-# Fields of metadata 2.4 (PEP 639), where setuptools knows them.
+# A field of metadata 2.4 (PEP 639), where setuptools writes it.
 licence_field = "license_expression" if int(setuptools.__version__.split(".")[0]) >= 77 else "license"
-# pybind11 knows the arrays of NumPy 2 from 2.12 on.
-is_numpy_2_known = tuple(map(int, BUILT["pybind11"].split(".")[:2])) >= (2, 12)
+# pybind11 reads the arrays of NumPy 2 from 2.12 on.
+reads_numpy_2 = tuple(map(int, BUILT["pybind11"].split(".")[:2])) >= (2, 12)
 setup(
     version=BUILT["version"] + ("+meshing" if BUILT["meshing"] else ""),
     **{licence_field: LICENCE},
-    install_requires=["numpy>=1.21" if is_numpy_2_known else "numpy>=1.21,<2"],
+    install_requires=["numpy>=1.21" if reads_numpy_2 else "numpy>=1.21,<2"],
     packages=["cellwalk", "cellwalk.catheter"],
     package_dir={"cellwalk": "python/cellwalk"},
     package_data={"cellwalk": ["*.pyi", "py.typed"]},

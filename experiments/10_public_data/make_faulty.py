@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Small meshes with faults that are known, to test the audit with: what public meshes are like, without their data.
+"""Small meshes with known faults, to test the audit without public data.
 
 usage: make_faulty.py DIR     writes meshes and their sources.json into DIR
 """

@@ -29,8 +29,8 @@ COMPILED = [
 SHARED_TEXT = re.compile(r"/usr/share/common-licenses/([\w.-]*\w)")
 
 
-def asked(*command):
-    """What a command of Debian prints; nothing where there is none."""
+def printed(*command):
+    """The output of a command of Debian; nothing where there is none."""
     if shutil.which(command[0]) is None:
         return ""
     return subprocess.run(command, capture_output=True, text=True).stdout
@@ -40,7 +40,7 @@ def packages_of(files):
     """The Debian package that each of the files comes from, where one does."""
     # Packages may list what lies in /usr/lib as /lib.
     names = {name: file for file in map(str, files) for name in (file, file.removeprefix("/usr"))}
-    owners = re.findall(r"^([\w.+-]+)(?::\w+)?: (.+)$", asked("dpkg-query", "-S", *names), re.MULTILINE)
+    owners = re.findall(r"^([\w.+-]+)(?::\w+)?: (.+)$", printed("dpkg-query", "-S", *names), re.MULTILINE)
     return {names[name]: package for package, name in owners if name in names}
 
 
@@ -71,7 +71,7 @@ def write_notices(folder, bundled, *, licence, meshing, three):
         if name == "CGAL" and meshing:
             terms = "LGPL-3.0-or-later, and GPL-3.0-or-later for what makes meshes"
         package = packages.get(str(file))
-        origin = asked("dpkg-query", "-W", "-f", "${source:Package} ${source:Version}", package) if package else ""
+        origin = printed("dpkg-query", "-W", "-f", "${source:Package} ${source:Version}", package) if package else ""
         lines.append(f"{name}: {terms}; {place}{f'; {origin}; {package}.txt' if origin else ''}")
         if origin:
             copy_texts(package, folder)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Where wires enter a lumen, where they are to go, and the centre lines between.
 
-All distances are along the means of neighbouring cells. Centre lines are for guidance: walls are known by the wire alone.
+All distances are along the means of neighbouring cells. Centre lines are for guidance: only the wire is tested against walls.
 """
 
 import heapq

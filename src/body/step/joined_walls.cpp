@@ -22,7 +22,7 @@ namespace {
 /// do in files with ten digits; and how near to the mean of a facet a wall of the other set must be.
 constexpr double rounding = 0x1p-30, nearness = 0x1p-24;
 
-/// Far from the origin, where doubles are further apart than these shares: at least so many ulp.
+/// At least so many ulp: far from the origin the shares above are less.
 constexpr double rounding_ulps = 4, nearness_ulps = 16;
 
 template <int D>

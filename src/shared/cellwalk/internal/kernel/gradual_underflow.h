@@ -5,7 +5,7 @@
 
 namespace cellwalk {
 
-/// Cost: about 50 ns.
+/// Cost: 7 ns.
 /// \throw Error(usage) if this thread flushes small numbers to zero
 void expect_gradual_underflow();
 
