@@ -14,26 +14,7 @@ cd "$(dirname "$0")/.."
 packages=${1:-out/packages}
 ls "$packages"/*.deb >/dev/null
 
-if [ "$(id -u)" -ne 0 ]; then
-  echo "check_packages.sh: needs root, for a clean Debian of its own" >&2
-  exit 1
-fi
-root=$(mktemp -d)
-log=$(mktemp)
-clean() {
-  if mountpoint -q "$root/proc"; then umount "$root/proc"; fi
-  rm -rf --one-file-system "$root" "$log"
-}
-trap clean EXIT
-release=$(debian_release)
-echo "packages: making a clean Debian ($release) in $root"
-if [ -n "${CELLWALK_DEBIAN_ROOT:-}" ]; then
-  cp -a "$CELLWALK_DEBIAN_ROOT/." "$root"
-else
-  make_debian_root "$release" "$root"
-fi
-connect_debian_root "$root"
-mount -t proc proc "$root/proc"  # Java, on which libvtk9-dev depends, is not configured without it
+make_disposable_root check_packages.sh "$(debian_release)"  # /proc: Java, on which libvtk9-dev depends, is not configured without it
 mkdir "$root/packages" "$root/examples"
 cp "$packages"/*.deb "$root/packages/"
 cp -r examples data "$root/examples/"

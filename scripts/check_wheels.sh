@@ -14,25 +14,7 @@ wheels=${1:-out/wheels}
 release=${2:-$(debian_release)}
 ls "$wheels"/*.whl >/dev/null
 
-if [ "$(id -u)" -ne 0 ]; then
-  echo "check_wheels.sh: needs root, for a clean Debian of its own" >&2
-  exit 1
-fi
-root=$(mktemp -d)
-log=$(mktemp)
-clean() {
-  if mountpoint -q "$root/proc"; then umount "$root/proc"; fi
-  rm -rf --one-file-system "$root" "$log"
-}
-trap clean EXIT
-echo "wheels: making a clean Debian ($release) in $root"
-if [ -n "${CELLWALK_DEBIAN_ROOT:-}" ]; then
-  cp -a "$CELLWALK_DEBIAN_ROOT/." "$root"
-else
-  make_debian_root "$release" "$root"
-fi
-connect_debian_root "$root"
-mount -t proc proc "$root/proc"  # the check reads which libraries are loaded
+make_disposable_root check_wheels.sh "$release"  # /proc: the check reads which libraries are loaded
 mkdir "$root/wheels" "$root/examples"
 cp "$wheels"/*.whl "$root/wheels/"
 cp examples/python/*.py examples/python/notebooks/*.ipynb python/tests/use_wheel.py python/tests/run_notebook.py "$root/examples/"

@@ -40,3 +40,24 @@ connect_debian_root() {
     if [ -e "/etc/$file" ]; then cp -L "/etc/$file" "$folder/etc/$file"; fi
   done
 }
+
+# make_disposable_root SCRIPT RELEASE: a clean Debian in $root, of its own or a copy of CELLWALK_DEBIAN_ROOT, with /proc, and a file $log;
+# both are removed when the script ends.
+make_disposable_root() {
+  local script=$1 release=$2
+  if [ "$(id -u)" -ne 0 ]; then
+    echo "$script: needs root, for a clean Debian of its own" >&2
+    exit 1
+  fi
+  root=$(mktemp -d)
+  log=$(mktemp)
+  trap 'if mountpoint -q "$root/proc"; then umount "$root/proc"; fi; rm -rf --one-file-system "$root" "$log"' EXIT
+  echo "$script: making a clean Debian ($release) in $root"
+  if [ -n "${CELLWALK_DEBIAN_ROOT:-}" ]; then
+    cp -a "$CELLWALK_DEBIAN_ROOT/." "$root"
+  else
+    make_debian_root "$release" "$root"
+  fi
+  connect_debian_root "$root"
+  mount -t proc proc "$root/proc"
+}
