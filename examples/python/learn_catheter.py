@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """A catheter learns to steer into the branches of a vessel: a plain search finds the seven numbers of a policy.
 
-usage: learn_catheter.py [--out DIR] [--processes N] [--rounds N] [--forks N] [--trials N]
+usage: learn_catheter.py [--vessel MESH --start X Y Z --radius R] [--policy LEARNING.csv] [--out DIR] [--processes N] [--rounds N] [--forks N] [--trials N]
+
+The vessel is any mesh that import_mesh() reads, by default a generated one. --start: a point, or the name of a group, such as a cap.
+--policy: no search; the best policy of an earlier one is tried on targets of this vessel.
 
 In each round, policies are drawn around the best of the round before, and each is tried on a few targets (the cross-entropy method).
 Only + - * / and square roots are used, and results do not depend on the number of processes: the same numbers come out everywhere.
@@ -53,9 +56,9 @@ def episode(env, numbers, seed):
 
 
 @functools.lru_cache(maxsize=None)  # once for each process
-def catheter(forks, vertices):
-    vessel = cellwalk.Environment.generate("vessel", generations=forks)
-    return CatheterEnv(Lumen(vessel, start=(0, 0, 0.2)), radius=0.15, vertices=vertices, most_steps=4 * vertices)
+def catheter(forks, vertices, mesh=None, start=(0, 0, 0.2), radius=0.15):
+    vessel = cellwalk.Environment.import_mesh(mesh) if mesh else cellwalk.Environment.generate("vessel", generations=forks)
+    return CatheterEnv(Lumen(vessel, start=start), radius=radius, vertices=vertices, most_steps=4 * vertices)
 
 
 def trial(task):
@@ -77,36 +80,55 @@ def search(which, rounds, run):
         yield middle.tolist(), steps, sum(reached for result in results for _, reached, _ in result) / (POLICIES * EPISODES)
 
 
+def learn(which, rounds, trials, pool, file):
+    """Searches, and writes a row for each round: the middle of the best policies, and how many targets it reached that the search has not seen."""
+    table = csv.writer(file, lineterminator="\n")
+    table.writerow(["round", "steps", "reached_by_all", "reached", "trials", *(f"number_{k}" for k in range(NUMBERS))])
+    for number, (policy, steps, share) in enumerate(search(which, rounds, pool.map), 1):
+        reached = sum(reached for _, reached, _ in unseen(which, policy, 10_000, trials, pool))
+        table.writerow([number, steps, share, reached, trials, *map(repr, policy)])
+        print(f"round {number}: {steps} steps, {share:.0%} of targets reached; the middle of the best reaches {reached} of {trials}", flush=True)
+
+
+def unseen(which, policy, first, count, pool):
+    """Episodes with targets and turns of the base that no search has seen: its seeds are less."""
+    return [result for rows in pool.map(trial, [(which, policy, [first + k]) for k in range(count)]) for result in rows]
+
+
+def best_policy(path):
+    """Of a table that learn() wrote: the policy that reached most, the last one of several."""
+    with open(path, newline="") as file:
+        row = max(csv.DictReader(file), key=lambda row: (int(row["reached"]), int(row["round"])))
+    return [float(row[f"number_{k}"]) for k in range(NUMBERS)]
+
+
 def main():
     parser = argparse.ArgumentParser()
+    parser.add_argument("--vessel")
+    parser.add_argument("--start", nargs="+", default=["0", "0", "0.2"])
+    parser.add_argument("--radius", type=float, default=0.15)
+    parser.add_argument("--policy", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
     for name, default in (("processes", 2), ("rounds", 8), ("forks", 3), ("vertices", 100), ("trials", 96)):
         parser.add_argument(f"--{name}", type=int, default=default)
     given = parser.parse_args()
-    which, names = (given.forks, given.vertices), catheter(given.forks, given.vertices).lumen.names
-    given.out.mkdir(parents=True, exist_ok=True)
-    with multiprocessing.Pool(given.processes) as pool, open(given.out / "learning.csv", "w", newline="") as file:
-        def test(policy, first, count):
-            """Targets and turns of the base that the policy has not seen: seeds of the search are less."""
-            return [result for rows in pool.map(trial, [(which, policy, [first + k]) for k in range(count)]) for result in rows]
-
-        table, most, chosen = csv.writer(file, lineterminator="\n"), -1, None
-        table.writerow(["round", "steps", "reached_by_all", "reached", "trials", *(f"number_{k}" for k in range(NUMBERS))])
-        for number, (policy, steps, share) in enumerate(search(which, given.rounds, pool.map), 1):
-            reached, count = sum(reached for _, reached, _ in test(policy, 10_000, given.trials // 4)), given.trials // 4
-            table.writerow([number, steps, share, reached, count, *map(repr, policy)])
-            print(f"round {number}: {steps} steps, {share:.0%} of targets reached; the middle of the best reaches {reached} of {count}", flush=True)
-            most, chosen = (reached, policy) if reached >= most else (most, chosen)
-        results = test(chosen, 20_000, given.trials)
+    start = given.start[0] if len(given.start) == 1 else tuple(map(float, given.start))
+    which = (given.forks, given.vertices, given.vessel, start, given.radius)
     env = catheter(*which)
+    given.out.mkdir(parents=True, exist_ok=True)
+    with multiprocessing.Pool(given.processes) as pool:
+        if given.policy is None:
+            with open(given.out / "learning.csv", "w", newline="") as file:
+                learn(which, given.rounds, given.trials // 4, pool, file)
+        results = unseen(which, best_policy(given.policy or given.out / "learning.csv"), 20_000, given.trials, pool)
     targets = [env.reset(seed=20_000 + k)[1]["target"] for k in range(given.trials)]
     with open(given.out / "reached.csv", "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["target", "reached", "trials"])
-        for name in names:
+        for name in env.lumen.names:
             own = [reached for target, (_, reached, _) in zip(targets, results) if target == name]
             table.writerow([name, sum(own), len(own)])
-    print(f"the one that reached most: {sum(reached for _, reached, _ in results)} of {given.trials} further targets")
+    print(f"the best policy: {sum(reached for _, reached, _ in results)} of {given.trials} further targets")
 
 
 if __name__ == "__main__":

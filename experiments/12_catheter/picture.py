@@ -11,15 +11,13 @@ from pathlib import Path
 import cellwalk
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "examples" / "python"), str(ROOT / "experiments" / "common")]
+sys.path.insert(0, str(ROOT / "examples" / "python"))
 import learn_catheter  # noqa: E402
-from tables import read_rows  # noqa: E402
 
 
 def main():
     folder = Path(sys.argv[1])
-    best = max(read_rows(folder / "learning.csv"), key=lambda row: (int(row["reached"]), int(row["round"])))
-    numbers = [float(best[f"number_{k}"]) for k in range(learn_catheter.NUMBERS)]
+    numbers = learn_catheter.best_policy(folder / "learning.csv")
     env, bodies, seed = learn_catheter.catheter(3, 100), {}, 0
     while len(bodies) < len(env.lumen.names) and seed < 1000:
         target = env.reset(seed=seed)[1]["target"]

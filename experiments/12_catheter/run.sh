@@ -5,7 +5,8 @@
 #   experiments/12_catheter/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--no-build] [--threads N]
 #
 # The options are explained in experiments/common/run_options.sh; --threads: processes of the search. --quick: a minute; otherwise
-# about an hour on one core. What is judged goes on where an earlier run ended.
+# hours on one core. What is judged goes on where an earlier run ended. With CELLWALK_TEST_DATA, a folder of public meshes, the policy
+# that was learned is tried in three of its vessels, too.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 name=catheter
@@ -22,6 +23,16 @@ else
   search=() steps=1000000
 fi
 "$python" examples/python/learn_catheter.py --processes "$threads" --out "$out" "${search[@]}"
+# vessel FILE CAP RADIUS: the policy in a vessel in which it has not learned.
+vessel() {
+  "$python" examples/python/learn_catheter.py --processes "$threads" --policy "$out/learning.csv" \
+    --vessel "$CELLWALK_TEST_DATA/lumens/$1" --start "$2" --radius "$3" --out "$out/${1%.*}"
+}
+if ! $quick && [ -n "${CELLWALK_TEST_DATA:-}" ]; then
+  vessel carotids.stl cap_1 0.3
+  vessel aorta_open_ends.stl cap_1 0.7
+  vessel phantom.obj cap_1 0.25
+fi
 "$python" experiments/12_catheter/judged_steps.py --steps "$steps" --out "$out"
 if ! $counts; then "$python" experiments/12_catheter/times.py --out "$out"; fi
 "$python" experiments/12_catheter/summarize.py "$out" || [ $? -eq 3 ]

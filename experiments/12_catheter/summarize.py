@@ -19,9 +19,21 @@ def learning_table(rows):
                  [[r["round"], f'{int(r["steps"]):,}', f'{100 * float(r["reached_by_all"]):.0f} %', f'{r["reached"]} of {r["trials"]}'] for r in rows])
 
 
+def reached_of(rows):
+    return "{} of {}".format(*(sum(int(r[c]) for r in rows) for c in ("reached", "trials")))
+
+
 def reached_table(rows):
-    reached, trials = (sum(int(r[c]) for r in rows) for c in ("reached", "trials"))
-    return table(["target", "reached"], [[r["target"], f'{r["reached"]} of {r["trials"]}'] for r in rows] + [["all", f"{reached} of {trials}"]])
+    return table(["target", "reached"], [[r["target"], f'{r["reached"]} of {r["trials"]}'] for r in rows] + [["all", reached_of(rows)]])
+
+
+def vessels_table(folder):
+    """Of the vessels in which the policy was tried without learning there: each has a folder."""
+    rows = []
+    for file in sorted(folder.glob("*/reached.csv")):
+        ends = read_rows(file)
+        rows.append([f"`{file.parent.name}`", len(ends), sum(int(r["reached"]) > 0 for r in ends), reached_of(ends)])
+    return "### Other vessels\n\n" + table(["vessel", "ends", "ends reached", "targets reached"], rows) + "\n" if rows else ""
 
 
 def judged_table(rows, memory):
@@ -52,7 +64,7 @@ def success_plot(folder, rows):
 def main():
     folder = Path(sys.argv[1])
     learned, judged = read_rows(folder / "learning.csv"), read_rows(folder / "judged.csv")
-    text = "## Learning\n\n" + learning_table(learned) + "\n" + reached_table(read_rows(folder / "reached.csv")) + "\n## Judged steps\n\n" + judged_table(judged, read_rows(folder / "memory.csv"))
+    text = "## Learning\n\n" + learning_table(learned) + "\n" + reached_table(read_rows(folder / "reached.csv")) + "\n" + vessels_table(folder) + "## Judged steps\n\n" + judged_table(judged, read_rows(folder / "memory.csv"))
     times = read_rows_if_any(folder / "times.csv")
     if times:
         text += "\n## Times\n\n" + time_table(times)
