@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # A search for a policy that steers a catheter, a million judged steps, and times of steps; writes tables and a plot.
 #
-#   experiments/12_catheter/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--no-build] [--threads N]
+#   experiments/12_catheter/run.sh [--learn] [--quick] [--counts] [--out DIR] [--build DIR] [--no-build] [--threads N]
+#
+#   --learn   the search and its plot only: minutes after the build
 #
 # The options are explained in experiments/common/run_options.sh; --threads: processes of the search. --quick: a minute; otherwise
 # hours on one core. What is judged goes on where an earlier run ended. With CELLWALK_TEST_DATA, a folder of public meshes, the policy
@@ -11,6 +13,11 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 name=catheter
 targets=cellwalk_python
+learn=false
+if [ "${1:-}" = --learn ]; then
+  learn=true
+  shift
+fi
 # shellcheck source=experiments/common/run_options.sh
 . experiments/common/run_options.sh
 python=$(sed -n 's/^Python3_EXECUTABLE:[A-Z]*=//p' "$build/CMakeCache.txt")  # for which the module was built
@@ -33,7 +40,9 @@ if ! $quick && [ -n "${CELLWALK_TEST_DATA:-}" ]; then
   vessel aorta_open_ends.stl cap_1 0.7
   vessel phantom.obj cap_1 0.25
 fi
-"$python" experiments/12_catheter/judged_steps.py --steps "$steps" --out "$out"
-if ! $counts; then "$python" experiments/12_catheter/times.py --out "$out"; fi
+if ! $learn; then
+  "$python" experiments/12_catheter/judged_steps.py --steps "$steps" --out "$out"
+  if ! $counts; then "$python" experiments/12_catheter/times.py --out "$out"; fi
+fi
 "$python" experiments/12_catheter/summarize.py "$out" || [ $? -eq 3 ]
 echo "catheter: $out/tables.md"

@@ -63,9 +63,10 @@ def success_plot(folder, rows):
 
 def main():
     folder = Path(sys.argv[1])
-    learned, judged = read_rows(folder / "learning.csv"), read_rows(folder / "judged.csv")
-    text = "## Learning\n\n" + learning_table(learned) + "\n" + reached_table(read_rows(folder / "reached.csv")) + "\n" + vessels_table(folder) + "## Judged steps\n\n" + judged_table(judged, read_rows(folder / "memory.csv"))
-    times = read_rows_if_any(folder / "times.csv")
+    learned, judged, times = read_rows(folder / "learning.csv"), read_rows_if_any(folder / "judged.csv"), read_rows_if_any(folder / "times.csv")
+    text = "## Learning\n\n" + learning_table(learned) + "\n" + reached_table(read_rows(folder / "reached.csv")) + "\n" + vessels_table(folder)
+    if judged:
+        text += "## Judged steps\n\n" + judged_table(judged, read_rows(folder / "memory.csv"))
     if times:
         text += "\n## Times\n\n" + time_table(times)
     (folder / "tables.md").write_text(text, encoding="utf-8")
