@@ -14,6 +14,7 @@ import argparse
 import csv
 import gzip
 import json
+import multiprocessing
 import os
 import re
 import subprocess
@@ -313,7 +314,7 @@ def main():
 
 def animate(options):
     frames = frames_of(STORY)[::options.every]
-    with ProcessPoolExecutor(options.jobs) as pool:
+    with ProcessPoolExecutor(options.jobs, multiprocessing.get_context("fork")) as pool:
         images = list(pool.map(draw_frame, frames))
     if options.frames:
         options.frames.mkdir(parents=True, exist_ok=True)
