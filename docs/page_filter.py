@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """A filter for Doxygen, which reads pages otherwise than GitHub does: python3 docs/page_filter.py PAGE, in the root of the repository.
 
-- README.md becomes the first page; those of folders are pages like others.
+- README.md becomes the first page; those of folders are pages like others. Its headings are not sections, which would come before all pages in the tree.
 - Headings get labels, since Doxygen knows those of GitHub neither within a page nor from another one. A label that is not there is a
   warning, so links are checked here too.
+- <!-- site: TEXT --> is TEXT on the site, if that has the page of a run (scripts/docs.sh), to which such texts lead.
 - Pictures are named from the root, where Doxygen looks for them.
 - Links to public headers lead to their pages. Other files of the repository are in the folder files/ of the site, as text (scripts/docs.sh
   copies those to which a page leads); folders have no page, so what leads to them is plain text.
@@ -18,6 +19,9 @@ from pathlib import Path
 PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s:]+)\)")
 LINK = re.compile(r"(?<!!)\]\(([^)\s#]*\.md)?#([\w-]+)\)")
 FILE = re.compile(r"(?<!!)\[((?:[^\[\]]|`[^`]*`)*)\]\(([^)\s#:@]+)\)")
+FOR_SITE = re.compile(r"<!-- site: (.*?) -->")
+LIVE = "live/"  # of the site
+HAS_LIVE = Path("build/docs/live/aorta.html").exists()
 HEADERS = "include/"
 
 
@@ -40,7 +44,7 @@ def filtered(page, text):
 
     def file(match):
         path = os.path.normpath(os.path.join(os.path.dirname(page), match[2]))
-        if path.endswith(".md"):
+        if path.endswith(".md") or match[2].startswith(LIVE):
             return match[0]
         if os.path.isdir(path):
             return match[1]
@@ -59,10 +63,11 @@ def filtered(page, text):
         if is_first and heading:  # the title of the page, which has a label
             line += " {#mainpage}" if page == "README.md" else ""
         elif heading and not in_code:
-            line = f"{line.rstrip()} {{#{label(page, anchor(heading[2]))}}}"
+            name = label(page, anchor(heading[2]))
+            line = f"@anchor {name}\n<h2>{heading[2]}</h2>\n" if page == "README.md" else f"{line.rstrip()} {{#{name}}}"
         is_first = is_first and not heading
         if not in_code:
-            line = PICTURE.sub(picture, FILE.sub(file, LINK.sub(link, line)))
+            line = FOR_SITE.sub(r"\1" if HAS_LIVE else "", PICTURE.sub(picture, FILE.sub(file, LINK.sub(link, line))))
         lines.append(line)
     return "\n".join(lines)
 

@@ -10,7 +10,8 @@ usage: test_pages.py ROOT PROGRAM [--long] [OPTIONAL PARTS THAT ARE MISSING ...]
 - A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
   `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial.
   `$ export NAME=VALUE` holds for the rest of the page. A block after <!-- needs PART PART --> is left out where
-  one of these parts is missing; one after <!-- not run --> always. One after <!-- long --> is run with --long, and nothing else then. data/ and examples/ are those of the repository, build/release is the
+  one of these parts is missing; one after <!-- not run --> always. One after <!-- long --> or <!-- long needs PART -->
+  is run with --long, and nothing else then. data/ and examples/ are those of the repository, build/release is the
   folder of the program.
 - With --tutorials, the pages in docs/tutorials are run and nothing else; no part may be missing.
 - A picture that the commands of a page draw, and that the page shows from docs/images, is the one there. For the picture of a run,
@@ -30,6 +31,7 @@ import pictures
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
+FOR_SITE = re.compile(r"<!-- site: .*? -->")  # its links lead to what the site alone has (docs/page_filter.py)
 CONSOLE = re.compile(r"(?:<!-- (.*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
 FEWEST = {"links": 60, "options": 15, "commands": 8, "pictures": 2}  # so that a test that finds nothing does not pass
@@ -50,7 +52,7 @@ def anchors_of(page):
 
 
 def check_links(page, counts):
-    for target in LINK.findall(CODE.sub("", page.read_text(encoding="utf-8"))):
+    for target in LINK.findall(FOR_SITE.sub("", CODE.sub("", page.read_text(encoding="utf-8")))):
         if re.match(r"[a-z]+:", target):
             continue
         counts["links"] += 1
@@ -146,7 +148,7 @@ def run_blocks(page, root, program, missing, counts, is_long):
         prepare(Path(folder), page, root, program)
         environment = dict(os.environ, PATH=f"{program.parent}:{folder}/bin:{os.environ['PATH']}")
         for mark, block in CONSOLE.findall(page.read_text(encoding="utf-8")):
-            if mark == "not run" or (mark == "long") != is_long or missing.intersection(mark.removeprefix("needs ").split()):
+            if mark == "not run" or mark.startswith("long") != is_long or missing.intersection(mark.removeprefix("long").strip().removeprefix("needs ").split()):
                 continue
             for command, expected in steps_of(block):
                 words = shlex.split(command, comments=True)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What moves: bodies with edges and faces, catheters, free particles.
 import * as THREE from 'three';
-import { decisionOf, ofNumber, tableOf } from './colours.js';
+import { decisionOf, ofNumber, pictures, tableOf } from './colours.js';
 import { fatLines } from './lines.js';
 
 const edgeWidth = 1.9, surfaceEdgeWidth = 0.9, catheterWidth = 5;  // pixels
@@ -76,10 +76,10 @@ export function makeBodies(motion) {
   free.object.renderOrder = 1.4;
   if (motion.particles > 0) group.add(free.object);
 
-  const byBody = tableOf(Math.max(1, motion.bodyCount), ofNumber);
+  const byBody = tableOf(Math.max(1, motion.bodyCount), i => motion.bodies[i]?.kind === 'catheter' ? new THREE.Color(pictures.catheter) : ofNumber(i));
   const byDecision = tableOf(motion.decisions.length, i => new THREE.Color(decisionOf(motion.decisions[i]).colour));
   const byCell = tableOf(Math.min(motion.cells, 1 << 16), ofNumber), cellColours = byCell.length / 3;
-  const particleColour = new THREE.Color('#7488a6');
+  const particleColour = new THREE.Color(pictures.particle);
 
   const put = (out, i, table, entry) => {
     for (let k = 0; k < 3; ++k) out[3 * i + k] = table[3 * entry + k];

@@ -2,6 +2,9 @@
 // What colours mean. Components are linear, as shaders take them.
 import { Color } from 'three';
 
+/** Those of the program's pictures (src/drawing/bodies.cpp; tests/docs/test_colours.py compares). */
+export const pictures = { wall: '#cc5e54', catheter: '#1a4587', particle: '#0d8580', contact: '#f59414' };
+
 /** How a body's moves were decided, by the names that recordings have for it (docs/formats.md); costlier ones are warmer. */
 export const decisions = {
   none: { title: 'at rest', colour: '#8a94a6' },
@@ -19,8 +22,8 @@ export const decisionOf = name => decisions[name] ?? { title: name.replaceAll('_
 /** Features of the environment that were met, by kind. */
 export const kinds = [
   { name: 'vertex', colour: '#9b1d8a' },
-  { name: 'edge', colour: '#1d4ed8' },
-  { name: 'facet', colour: '#d02746' },
+  { name: 'edge', colour: '#b4410b' },
+  { name: 'facet', colour: pictures.contact },
 ];
 
 const goldenRatio = 0.618033988749895;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Play, scrub, step; contacts of each record as bars above the slider.
+import { pictures } from './colours.js';
+
 const recordsASecond = 30, farStep = 10;
 
 export class Timeline {
@@ -74,7 +76,7 @@ export class Timeline {
     Object.assign(this.bars, { width: width * scale, height: height * scale });
     const context = this.bars.getContext('2d');
     context.scale(scale, scale);
-    context.fillStyle = '#d0274699';
+    context.fillStyle = `${pictures.contact}cc`;
     const columns = new Float64Array(width);
     this.counts.forEach((count, r) => {
       const column = Math.min(width - 1, Math.floor(r / Math.max(1, this.counts.length - 1) * (width - 1)));

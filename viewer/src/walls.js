@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The environment: walls one can see through, in the plane also free cells and the edges between them.
 import * as THREE from 'three';
+import { pictures } from './colours.js';
 import { fatLines } from './lines.js';
 
 const trianglesOf = loops => {
@@ -30,7 +31,7 @@ function wallsInSpace(motion, points) {
   const geometry = indexed.toNonIndexed();
   geometry.computeVertexNormals();
   const material = (side, opacity) => new THREE.MeshLambertMaterial(
-    { color: '#8fa5c4', transparent: true, opacity, side, depthWrite: false });
+    { color: pictures.wall, transparent: true, opacity, side, depthWrite: false });
   const group = new THREE.Group();
   const inside = new THREE.Mesh(geometry, material(THREE.BackSide, 0.36));
   const outside = new THREE.Mesh(geometry, material(THREE.FrontSide, 0.07));
@@ -38,7 +39,7 @@ function wallsInSpace(motion, points) {
   outside.renderOrder = 3;
   group.add(inside, outside);
   const lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial(
-    { color: '#64748b', transparent: true, opacity: 0.35, depthWrite: false }));
+    { color: pictures.wall, transparent: true, opacity: 0.35, depthWrite: false }));
   lines.renderOrder = 2;
   group.add(lines);
   const drawCreases = loops => {
