@@ -153,14 +153,8 @@ Motions Particles::move(const py::object& targets, const py::object& rows, const
           return stops ? move_rows<true>(particles, to, moving, threads)
                        : move_rows<false>(particles, to, moving, threads);
         };
-        if (rows.is_none()) {
-          need_rows(to, "targets", particles.size(), "the particles");
-          return move_those(All_rows{});
-        }
-        const std::vector<std::uint32_t> chosen =
-            distinct_numbers_of(rows, "rows", particles.size(), "particles");
-        need_rows(to, "targets", chosen.size(), "rows");
-        return move_those(chosen.data());
+        const std::vector<std::uint32_t> chosen = chosen_rows(rows, to, particles.size());
+        return rows.is_none() ? move_those(All_rows{}) : move_those(chosen.data());
       },
       particles_);
 }

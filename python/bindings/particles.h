@@ -19,6 +19,19 @@
 
 namespace cellwalk::python {
 
+/// Which particles move to targets: the numbers of those in `rows`, or none if all do.
+/// \param rows None, integers or a mask
+/// \throw as distinct_numbers_of(); InputError that names both shapes unless there are as many targets
+template <int D>
+std::vector<std::uint32_t> chosen_rows(const py::object& rows, const Points<D>& targets,
+                                       std::size_t particles) {
+  std::vector<std::uint32_t> chosen;
+  if (!rows.is_none()) chosen = distinct_numbers_of(rows, "rows", particles, "particles");
+  need_rows(targets, "targets", rows.is_none() ? particles : chosen.size(),
+            rows.is_none() ? "the particles" : "rows");
+  return chosen;
+}
+
 /// The particles of an environment of either dimension. They follow the moves of its walls in which they are
 /// listed; after others they refuse to move, instead of missing a wall.
 class Particles {

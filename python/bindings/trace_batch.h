@@ -86,20 +86,25 @@ class Point_motions {
 template <int D>
 class Particle_motions {
  public:
-  Particle_motions(std::span<Particle<D>> particles, std::span<const Point<D>> targets)
-      : particles_(particles), targets_(targets) {}
+  /// \param chosen the particle of each target; none: all, in order
+  Particle_motions(std::span<Particle<D>> particles, std::span<const std::uint32_t> chosen,
+                   std::span<const Point<D>> targets)
+      : particles_(particles), chosen_(chosen), targets_(targets) {}
 
-  const Point<D>& origin(std::size_t row) const { return particles_[row].position; }
+  const Point<D>& origin(std::size_t row) const { return particle(row).position; }
   std::span<const Point<D>> targets() const { return targets_; }
   Particle<D> start(std::size_t row, Motion_status& status, Walk_counts& /*counts*/) const {
-    const Particle<D>& particle = particles_[row];
-    status = particle.cell == Cell::none ? Motion_status::outside : Motion_status::invalid;
-    return is_usable(targets_[row]) ? particle : Particle<D>{particle.position};
+    const Particle<D>& at = particle(row);
+    status = at.cell == Cell::none ? Motion_status::outside : Motion_status::invalid;
+    return is_usable(targets_[row]) ? at : Particle<D>{at.position};
   }
-  void end(std::size_t row, const Particle<D>& particle) const { particles_[row] = particle; }
+  void end(std::size_t row, const Particle<D>& moved) const { particle(row) = moved; }
 
  private:
+  Particle<D>& particle(std::size_t row) const { return particles_[chosen_.empty() ? row : chosen_[row]]; }
+
   std::span<Particle<D>> particles_;
+  std::span<const std::uint32_t> chosen_;
   std::span<const Point<D>> targets_;
 };
 

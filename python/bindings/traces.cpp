@@ -121,18 +121,18 @@ auto with_points(const Shared_world& self, const py::object& origins, const py::
 
 /// The same for the motions of particles.
 template <class Use>
-auto with_particles(Particles& self, const py::object& targets, const Bouncing& bouncing, int threads,
-                    const Use& use) {
+auto with_particles(Particles& self, const py::object& targets, const py::object& rows,
+                    const Bouncing& bouncing, int threads, const Use& use) {
   check_threads(threads);
   return std::visit(
       [&]<int D>(const World<D>& world) {
         const auto to = points_of<D>(targets, "targets");
-        need_rows(to, "targets", self.size(), "the particles");
+        const std::vector<std::uint32_t> chosen = chosen_rows(rows, to, self.size());
         return use(world, to.size(), [&](const auto& work) {
           const typename World<D>::Reading reading(world, self.moving());
           self.check_epoch(reading.snapshot());
           const Tracing<D>& tracing = reading.tracing();
-          const Particle_motions<D> motions(self.all<D>(), span_of<D>(to));
+          const Particle_motions<D> motions(self.all<D>(), chosen, span_of<D>(to));
           if (bouncing.is_none())
             return work(reading.snapshot(), tracing, motions, walk_up_to_walls(tracing), 0);
           const Boundary_tracer<D> boundary = bouncing.boundary<D>(reading);
@@ -183,20 +183,22 @@ py::array_t<double> tally_points(const Shared_world& self, const py::object& ori
   });
 }
 
-Trace_arrays trace_particles(Particles& self, const py::object& targets, const py::object& reflect,
-                             const py::object& periodic, int most_bounces, int threads) {
+Trace_arrays trace_particles(Particles& self, const py::object& targets, const py::object& rows,
+                             const py::object& reflect, const py::object& periodic, int most_bounces,
+                             int threads) {
   const Bouncing bouncing(reflect, periodic, most_bounces);
-  return with_particles(self, targets, bouncing, threads,
+  return with_particles(self, targets, rows, bouncing, threads,
                         [&](const auto&, std::size_t, const auto& run) { return trace(run, threads); });
 }
 
-py::array_t<double> tally_particles(Particles& self, const py::object& targets, const py::object& weights,
-                                    const py::object& out, const py::object& reflect,
-                                    const py::object& periodic, int most_bounces, int threads) {
+py::array_t<double> tally_particles(Particles& self, const py::object& targets, const py::object& rows,
+                                    const py::object& weights, const py::object& out,
+                                    const py::object& reflect, const py::object& periodic, int most_bounces,
+                                    int threads) {
   const Bouncing bouncing(reflect, periodic, most_bounces);
-  return with_particles(self, targets, bouncing, threads,
-                        [&](const auto& world, std::size_t rows, const auto& run) {
-                          return tally(world, rows, weights, out, threads, run);
+  return with_particles(self, targets, rows, bouncing, threads,
+                        [&](const auto& world, std::size_t count, const auto& run) {
+                          return tally(world, count, weights, out, threads, run);
                         });
 }
 
@@ -297,15 +299,18 @@ void bind_traces(py::module_& module) {
       "to the other.\n"
       "most_bounces: such walls a row; the next one blocks it.\n";
   define(particles, "trace", &trace_particles, py::arg("targets"), py::kw_only(),
-         py::arg("reflect") = py::tuple(), py::arg("periodic") = py::tuple(), py::arg("most_bounces") = 1000,
-         py::arg("threads") = 0,
+         py::arg("rows") = py::none(), py::arg("reflect") = py::tuple(), py::arg("periodic") = py::tuple(),
+         py::arg("most_bounces") = 1000, py::arg("threads") = 0,
          ("Moves each particle to its target like move(), and divides the motions by the cells that they "
-          "cross. A blocked particle stays in place; its row goes up to the wall.\n\n" +
+          "cross. A blocked particle stays in place; its row goes up to the wall.\n\n"
+          "rows: only these particles move, integers or a mask; `targets` and the result have a row for "
+          "each.\n" +
           bounces + "threads: 0: all cores. The results do not depend on it.")
              .c_str());
   define(particles, "tally", &tally_particles, py::arg("targets"), py::kw_only(),
-         py::arg("weights") = py::none(), py::arg("out") = py::none(), py::arg("reflect") = py::tuple(),
-         py::arg("periodic") = py::tuple(), py::arg("most_bounces") = 1000, py::arg("threads") = 0,
+         py::arg("rows") = py::none(), py::arg("weights") = py::none(), py::arg("out") = py::none(),
+         py::arg("reflect") = py::tuple(), py::arg("periodic") = py::tuple(), py::arg("most_bounces") = 1000,
+         py::arg("threads") = 0,
          (std::string("Moves each particle to its target like trace(), with the same options. ") + tally_doc)
              .c_str());
 }

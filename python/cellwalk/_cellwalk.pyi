@@ -320,12 +320,12 @@ class Particles:
         threads: int = 0,
     ) -> Motions: ...
     def trace(
-        self, targets: ArrayLike, *, reflect: Sequence[_Walls] = (), periodic: Sequence[Sequence[_Walls]] = (),
-        most_bounces: int = 1000, threads: int = 0
+        self, targets: ArrayLike, *, rows: Union[ArrayLike, None] = None, reflect: Sequence[_Walls] = (),
+        periodic: Sequence[Sequence[_Walls]] = (), most_bounces: int = 1000, threads: int = 0
     ) -> Traces: ...
     def tally(
-        self, targets: ArrayLike, *, weights: Union[ArrayLike, None] = None, out: _Sums = None, reflect: Sequence[_Walls] = (),
-        periodic: Sequence[Sequence[_Walls]] = (), most_bounces: int = 1000, threads: int = 0
+        self, targets: ArrayLike, *, rows: Union[ArrayLike, None] = None, weights: Union[ArrayLike, None] = None, out: _Sums = None,
+        reflect: Sequence[_Walls] = (), periodic: Sequence[Sequence[_Walls]] = (), most_bounces: int = 1000, threads: int = 0
     ) -> NDArray[numpy.float64]: ...
     def locate_again(self, *, threads: int = 0) -> None: ...
     def __len__(self) -> int: ...

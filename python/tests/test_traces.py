@@ -149,6 +149,62 @@ class InTetrahedra(unittest.TestCase):
         self.assertEqual(self.environment.tally(starts[:0], ends[:0]).any(), False)
 
 
+class Rows(unittest.TestCase):
+    """Some particles are traced as if they were alone, and the others stand still."""
+
+    def setUp(self):
+        self.environment = cellwalk.Environment.generate("tets", cells=SIZE)
+        self.starts, self.ends = motions(8, 12_000)
+        self.rows = numpy.random.default_rng(9).permutation(len(self.starts))[:9_000][::2]
+
+    def particles(self, rows=slice(None)):
+        return cellwalk.Particles(self.environment, self.starts[rows])
+
+    def test_traces_are_those_of_the_subset(self):
+        rows, mask = self.rows, numpy.zeros(len(self.starts), bool)
+        mask[rows] = True
+        self.assertFalse(rows.flags.contiguous)
+        for name, given, picked in (("strided", rows, rows), ("a list of few", rows[:3].tolist(), rows[:3]), ("a mask", mask, numpy.flatnonzero(mask))):
+            for reflect in ((), [self.environment.facets()[self.environment.facets()["wall"]]]):
+                with self.subTest(rows=name, reflects=bool(reflect)):
+                    some, alone = self.particles(), self.particles(picked)
+                    traces = some.trace(self.ends[picked], rows=given, reflect=reflect, threads=2)
+                    self.assertTrue(same(traces, alone.trace(self.ends[picked], reflect=reflect)))
+                    self.assertEqual(some.positions[picked].tobytes(), alone.positions.tobytes())
+                    self.assertTrue((some.cells[picked] == alone.cells).all())
+                    still = numpy.setdiff1d(numpy.arange(len(self.starts)), picked)
+                    self.assertTrue((some.positions[still] == self.starts[still]).all())
+
+    def test_tallies_are_those_of_the_subset(self):
+        weights = numpy.random.default_rng(10).uniform(-1, 3, len(self.rows))
+        for given in (None, weights):
+            some, alone = self.particles(), self.particles(self.rows)
+            made = some.tally(self.ends[self.rows], rows=self.rows, weights=given)
+            self.assertEqual(made.tobytes(), alone.tally(self.ends[self.rows], weights=given).tobytes())
+            self.assertEqual(some.positions[self.rows].tobytes(), alone.positions.tobytes())
+        with self.assertRaisesRegex(ValueError, "weights has 2 values, and there are 1 motions"):
+            some.tally(self.ends[:1], rows=[0], weights=weights[:2])
+
+    def test_none_and_all(self):
+        particles = self.particles()
+        for none in ([], numpy.zeros(len(self.starts), bool)):
+            self.assertEqual((len(particles.trace(numpy.empty((0, 3)), rows=none)), particles.tally(numpy.empty((0, 3)), rows=none).any()), (0, False))
+        self.assertTrue((particles.positions == self.starts).all())
+        traces = particles.trace(self.ends, rows=numpy.arange(len(self.starts), dtype=numpy.uint16))
+        self.assertTrue(same(traces, self.particles().trace(self.ends)))
+
+    def test_refusals_are_those_of_moves(self):
+        particles, n = self.particles(), len(self.starts)
+        for targets, rows in ((2, [0, n]), (2, [-1, 0]), (2, [3, 3]), (2, numpy.ones(n - 1, bool)), (2, [[0, 1]]), (2, [0.0, 1.0]), (2, slice(2)), (2, [0, 1, 2]), (0, [1]), (1, [])):
+            with self.assertRaises((TypeError, ValueError, IndexError)) as moved:
+                particles.move(self.ends[:targets], rows=rows)
+            for call in (particles.trace, particles.tally):
+                with self.assertRaises(type(moved.exception)) as refused:
+                    call(self.ends[:targets], rows=rows)
+                self.assertEqual(str(refused.exception), str(moved.exception))
+        self.assertTrue((particles.positions == self.starts).all())
+
+
 class ByHand(unittest.TestCase):
     def test_a_row_through_a_grid(self):
         traces = plane().trace([[0.5, 0.5], [0.5, 0.5]] @ numpy.eye(2), numpy.array([[2.5, 0.5], [0.5, -1.0]]))

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 
+#include "integer_orientation.h"
 #include "twofold_orientation.h"
 
 namespace cellwalk::detail {
@@ -54,12 +55,14 @@ using Rational_kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 
 int orientation_cgal(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
   if (is_plainly_zero(p, q, r)) return 0;
+  if (const auto sign = integer_orientation(p, q, r)) return *sign;
   const int sign = twofold_sign<2>({p, q}, r);
   return sign != 0 ? sign : orientation_in<Filtered>(p, q, r);
 }
 
 int orientation_cgal(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
   if (is_plainly_zero(p, q, r, s)) return 0;
+  if (const auto sign = integer_orientation(p, q, r, s)) return *sign;
   const int sign = twofold_sign<3>({p, q, r}, s);
   return sign != 0 ? sign : orientation_in<Filtered>(p, q, r, s);
 }

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
+
+#include "kernel/integer_orientation.h"
 
 namespace cellwalk {
 namespace {
@@ -123,6 +126,85 @@ TEST(Orientation, IsExactAtSmallAndLargeScales) {
     compare_with_rationals<3>(scale);
     compare_with_rationals<4>(scale);
   }
+}
+
+template <std::size_t N>
+std::optional<int> integer_sign(const std::array<Point<N - 1>, N>& p) {
+  return std::apply([](const auto&... points) { return detail::integer_orientation(points...); }, p);
+}
+
+/// Points of a lattice in a plane of it, or next to one, at any scale and place.
+template <std::size_t N>
+void compare_in_lattices() {
+  constexpr std::size_t D = N - 1;
+  std::mt19937_64 random(11);
+  const auto below = [&](int bound) { return static_cast<double>(random() % (2 * bound + 1)) - bound; };
+  int zeros = 0;
+  for (int i = 0; i < 6'000; ++i) {
+    std::array<Point<D>, N> p;
+    std::array<double, D> scale;
+    for (double& x : scale) x = std::ldexp(1.0, static_cast<int>(below(300)));
+    for (auto& point : p)
+      for (double& x : point) x = below(1 << (i % 20));
+    const double s = below(8), t = D == 3 ? below(8) : 0;
+    for (std::size_t k = 0; k < D; ++k) {
+      p[D][k] = p[0][k] + s * (p[1][k] - p[0][k]);
+      if constexpr (D == 3) p[D][k] += t * (p[2][k] - p[0][k]);
+    }
+    if (i % 3 == 0) p[D][random() % D] += i % 2 == 0 ? 1 : -1;
+    for (auto& point : p)
+      for (std::size_t k = 0; k < D; ++k) point[k] *= scale[k];
+    const auto found = integer_sign<N>(p);
+    // Where it is none, an axis on which all are 0 has no unit, or coordinates are too large.
+    const bool are_large = std::ranges::any_of(scale, [](double x) { return x > 0x1p30; });
+    if (found || !are_large) {
+      ASSERT_EQ(found.value_or(0), exact_sign(p)) << "case " << i;
+    }
+    zeros += found && *found == 0;
+  }
+  EXPECT_GT(zeros, 600);
+}
+
+TEST(IntegerOrientation, IsExactInLattices) {
+  compare_in_lattices<3>();
+  compare_in_lattices<4>();
+}
+
+/// The largest numbers that it takes, with all signs.
+template <std::size_t N>
+void compare_at_the_limits() {
+  constexpr std::size_t D = N - 1;
+  std::mt19937_64 random(12);
+  const double values[] = {1 - 0x1p-53, 1 - 0x1p-52, 0.5, 0x1p-59, 0x1p-60, 0};
+  int undecided = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    std::array<Point<D>, N> p;
+    for (auto& point : p)
+      for (double& x : point) x = values[random() % (i % 2 == 0 ? 2 : 6)] * (random() & 1 ? 1 : -1);
+    const auto found = integer_sign<N>(p);
+    // An axis on which all are 0 has no unit.
+    ASSERT_EQ(found.value_or(0), exact_sign(p)) << "case " << i;
+    undecided += !found;
+  }
+  EXPECT_LT(undecided, 1000);
+}
+
+TEST(IntegerOrientation, IsExactAtItsLimits) {
+  compare_at_the_limits<3>();
+  compare_at_the_limits<4>();
+}
+
+TEST(IntegerOrientation, LeavesOpenWhatIsNotWhole) {
+  const auto with = [](double x, double y, double z) {
+    return integer_sign<4>({{{x, 0, 0}, {1, 1, 0}, {0, 1, 1}, {1, y, z}}});
+  };
+  EXPECT_TRUE(with(0x1p-59, 0, 0));
+  EXPECT_FALSE(with(0x1p-60, 0, 0));
+  EXPECT_FALSE(with(0, 1 + 0x1p-52, 0x1p-60));
+  EXPECT_FALSE(with(0, 0x1p60, 0));
+  EXPECT_FALSE(with(0x1p-1000, 0, 0));
+  EXPECT_FALSE(with(0, 0x1p900, 0x1p-900));
+  EXPECT_FALSE(integer_sign<3>({{{0x1p-950, 0}, {0, 1}, {0x1p-951, 1}}}));
 }
 
 TEST(Orientation, IsExactWhereProductsUnderflowOrOverflow) {

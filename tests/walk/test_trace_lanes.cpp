@@ -32,8 +32,21 @@ std::vector<Kind> kinds() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
     kinds.push_back({"fused", detail::fused_lane_functions});
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("bmi2"))
+    kinds.push_back({"wide", detail::wide_lane_functions});
 #endif
   return kinds;
+}
+
+/// The lengths of all pieces of a motion, each by itself.
+std::vector<double> lengths_of_pieces(const Snapshot<3>& snapshot, const Point<3>& from, const Point<3>& to,
+                                      const std::vector<Cell_exit>& exits, std::size_t pieces) {
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < pieces; ++i)
+    lengths.push_back(detail::length_of_piece<3>(snapshot, from, to, exits, i));
+  return lengths;
 }
 
 /// A segment in lanes, and the pieces that it was divided into.
@@ -42,7 +55,9 @@ class Measured {
   Measured(const Point<3>& from, const Point<3>& to, const detail::Lane_planes& planes,
            const std::vector<unsigned>& met, double error, const detail::Lane_functions& functions)
       : length(met.size() + room) {
-    std::vector<double> kept(14 * room), high(length.size()), low(length.size()), bound(length.size());
+    std::vector<double> kept(14 * room);
+    std::vector<unsigned> padded = met;
+    padded.resize(met.size() + room);
     detail::Lane_segments segments{};
     double* next = kept.data();
     for (int k = 0; k < 3; ++k)
@@ -57,9 +72,8 @@ class Measured {
       *segments.to[k] = to[k];
     }
     functions.set_directions(segments, 1);
-    is_certain = functions.measure(
-        segments, 0, {planes.planes.data(), planes.plane_of.data(), met.data(), met.size(), false},
-        {high.data(), low.data(), bound.data(), length.data()});
+    is_certain = functions.measure(segments, 0, {planes.planes.data(), padded.data(), met.size(), false},
+                                   length.data());
     length.resize(met.size() + 1);
   }
 
@@ -107,8 +121,8 @@ TEST_F(TraceLanes, AreRoundedToNearestByEveryKindOfProcessor) {
     Walk_options options{&visited, &crossed};
     options.exits = &exits;
     if (walk(snapshot_, *particle, to, counts, options).contact) continue;
-    std::vector<double> exact;
-    detail::append_lengths(snapshot_, particle->position, to, exits, visited.size(), exact);
+    const std::vector<double> exact =
+        lengths_of_pieces(snapshot_, particle->position, to, exits, visited.size());
     std::vector<unsigned> met;
     for (const Half_facet f : crossed) met.push_back(to_index(f));
     for (const Kind& kind : kinds()) {
@@ -139,8 +153,7 @@ TEST_F(TraceLanes, AreRoundedToNearestIfTheyRunAlmostAlongAFacet) {
       const Point<3> from = near(snapshot_.point(loop[0]), random_.real(0.5, 1) * slope),
                      to = near(snapshot_.point(loop[1]), random_.real(-1, -0.5) * slope);
       const std::vector<Cell_exit> exits{{facet}};
-      std::vector<double> exact;
-      detail::append_lengths<3>(snapshot_, from, to, exits, 2, exact);
+      const std::vector<double> exact = lengths_of_pieces(snapshot_, from, to, exits, 2);
       for (const Kind& kind : kinds()) {
         const Measured measured(from, to, planes_, {to_index(facet)}, error, kind.functions);
         certain += measured.is_certain;
@@ -171,7 +184,7 @@ TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
     targets.back() = from + inwards;
   }
   for (const Kind& kind : kinds()) {
-    detail::Block_walk<3> walks(snapshot_, kind.functions);
+    detail::Block_walk<3> walks(snapshot_, planes_, kind.functions);
     walks.run(particles, targets);
     std::size_t arrived = 0, blocked = 0, from_vertices = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -183,8 +196,8 @@ TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
       if (result.contact) crossed.push_back(result.contact->facet);
       ASSERT_EQ(row.verdict == detail::Lane_verdict::blocked, result.contact.has_value()) << kind.name;
       ASSERT_EQ(row.cell, to_index(result.cell)) << kind.name;
-      ASSERT_EQ(walks.met(row).size(), crossed.size()) << kind.name;
-      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row)[k], to_index(crossed[k]));
+      ASSERT_EQ(walks.count_of_met(row), crossed.size()) << kind.name;
+      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row, k), to_index(crossed[k]));
       ++(result.contact ? blocked : arrived);
       from_vertices += particles[i].dimension == 0;
     }
@@ -204,7 +217,7 @@ TEST_F(TraceLanes, LeaveLengthsOpenThatTheirErrorsDoNotRound) {
   for (const Half_facet f : crossed) met.push_back(to_index(f));
   ASSERT_GT(met.size(), 8u);
   detail::Lane_planes unknown = planes_;
-  unknown.plane_of[met[5]] = 0;  // the plane that is not known
+  unknown.planes[met[5]] = {};
   const double error = detail::lane_error * planes_.size;
   for (const Kind& kind : kinds()) {
     EXPECT_TRUE(Measured(particle->position, to, planes_, met, error, kind.functions).is_certain);

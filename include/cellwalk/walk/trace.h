@@ -45,7 +45,7 @@ struct Traces {
 template <int D>
 class Tracer {
  public:
-  /// Cost: about 0.5 us and 64 bytes a facet.
+  /// Cost: about 0.5 us and 128 bytes a facet.
   explicit Tracer(const Snapshot<D>& snapshot);
   explicit Tracer(const Snapshot<D>&& snapshot) = delete;
   ~Tracer();

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "lane_functions.h"
+#include "lane_planes.h"
 
 namespace cellwalk::detail {
 
@@ -27,12 +28,13 @@ inline constexpr std::size_t rows_of_block = 256;
 template <int D>
 class Block_walk {
  public:
-  Block_walk(const Snapshot<D>& snapshot, const Lane_functions& functions)
+  Block_walk(const Snapshot<D>& snapshot, const Lane_planes& planes, const Lane_functions& functions)
       : snapshot_(snapshot),
+        planes_(planes),
         walk_in_lanes_(snapshot.uniform_blocks() != 1 ? nullptr
                        : D == 2                       ? functions.walk_2
                                                       : functions.walk_3) {
-    for (unsigned slot = 0; slot < lane_slots; ++slot) grow(slot);
+    grow();
   }
   Block_walk(const Block_walk&) = delete;
   Block_walk& operator=(const Block_walk&) = delete;
@@ -54,7 +56,6 @@ class Block_walk {
       motion.starts_inside = particle.dimension == D;
       motion.row = &rows_[i];
     }
-    for (Lane_met& met : met_) met.count = 0;
     if (count == 0) return;
     if (walk_in_lanes_)
       in_lanes(count);
@@ -71,9 +72,11 @@ class Block_walk {
   }
 
   const Lane_row& row(std::size_t i) const { return rows_[i]; }
-  /// The facets that a row met.
-  std::span<const unsigned> met(const Lane_row& row) const {
-    return {met_[row.slot].half_facet + row.begin, met_[row.slot].half_facet + row.end};
+  /// The number of facets that a row met.
+  static std::size_t count_of_met(const Lane_row& row) { return row.end - row.begin; }
+  /// The k-th of them.
+  unsigned met(const Lane_row& row, std::size_t k) const {
+    return kept_[lane_slots * (row.begin + k) + row.slot];
   }
 
  private:
@@ -81,7 +84,7 @@ class Block_walk {
     Frame_line<D> line{Float_point<D>{}, Float_point<D>{}};
     const Lane_motion* motion = nullptr;
     Cell cell = Cell::none;
-    unsigned begin = 0;
+    unsigned begin = 0, step = 0;
     bool starts_inside = false;
     unsigned char number = 0;
   };
@@ -108,18 +111,19 @@ class Block_walk {
     return inside;
   }
 
-  void grow(unsigned slot) {
-    kept_[slot].resize(std::max<std::size_t>(1024, 2 * kept_[slot].size()));
-    met_[slot].half_facet = kept_[slot].data();
-    met_[slot].room = kept_[slot].size();
+  Lane_met grow() {
+    kept_.resize(std::max<std::size_t>(lane_slots * std::size_t{rows_of_block}, 2 * kept_.size()));
+    return room();
   }
+  Lane_met room() { return {kept_.data(), kept_.size() / lane_slots}; }
 
   void in_lanes(std::size_t count) {
     static_assert(sizeof(Plane_block<D>) == 4 * (D + 1) * sizeof(float));
     walk_in_lanes_({reinterpret_cast<const float*>(snapshot_.blocks(Cell{0})), snapshot_.links(Cell{0}),
-                    plane_error, time_slack, motions_.data(), count, snapshot_.half_facet_slots(),
-                    met_.data(),
-                    [](void* owner, unsigned slot) { static_cast<Block_walk*>(owner)->grow(slot); }, this});
+                    plane_error, time_slack,
+                    reinterpret_cast<const unsigned char(*)[sizeof(Lane_plane)]>(planes_.planes.data()),
+                    motions_.data(), count, snapshot_.half_facet_slots(), room(),
+                    [](void* owner) { return static_cast<Block_walk*>(owner)->grow(); }, this});
   }
 
   template <class Find_exit>
@@ -136,7 +140,7 @@ class Block_walk {
       slot.motion = &motion;
       slot.cell = Cell{motion.cell};
       slot.starts_inside = motion.starts_inside;
-      slot.begin = static_cast<unsigned>(met_[slot.number].count);
+      slot.begin = slot.step;
       return true;
     };
     for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -147,15 +151,14 @@ class Block_walk {
       for (std::size_t i = 0; i < active;) {
         Slot& slot = slots[i];
         const Certified_exit exit = find_exit(slot);
-        Lane_met& met = met_[slot.number];
         Lane_verdict verdict =
             exit.verdict == Certified_exit::inside ? Lane_verdict::arrived : Lane_verdict::undecided;
         if (exit.verdict == Certified_exit::leaves) {
           const Half_facet f = Snapshot<D>::half_facet(slot.cell, exit.facet);
-          met.half_facet[met.count++] = to_index(f);
-          if (met.count == met.room) grow(slot.number);
+          if (slot.step == room().steps) grow();
+          kept_[lane_slots * std::size_t{slot.step++} + slot.number] = to_index(f);
           const bool is_blocked = snapshot_.is_impassable(f);
-          if (!is_blocked && met.count - slot.begin <= snapshot_.half_facet_slots()) {
+          if (!is_blocked && slot.step - slot.begin <= snapshot_.half_facet_slots()) {
             slot.cell = snapshot_.neighbour(f);
             slot.starts_inside = true;
             ++i;
@@ -163,19 +166,18 @@ class Block_walk {
           }
           if (is_blocked) verdict = Lane_verdict::blocked;
         }
-        *slot.motion->row = {verdict, slot.number, slot.begin, static_cast<unsigned>(met.count),
-                             to_index(slot.cell)};
+        *slot.motion->row = {verdict, slot.number, slot.begin, slot.step, to_index(slot.cell)};
         if (!start(slot)) std::swap(slot, slots[--active]);
       }
   }
 
   const Snapshot<D>& snapshot_;
+  const Lane_planes& planes_;
   const Lane_walk walk_in_lanes_;  ///< if any
   std::array<Lane_row, rows_of_block> rows_;
   std::array<bool, rows_of_block> is_cut_{};  ///< the motion is walked to the border of the frame only
   std::array<Lane_motion, rows_of_block> motions_;
-  std::array<std::vector<unsigned>, lane_slots> kept_;
-  std::array<Lane_met, lane_slots> met_{};
+  std::vector<unsigned> kept_;  ///< the half-facets met, as Lane_row has them
 };
 
 }  // namespace cellwalk::detail

@@ -35,15 +35,32 @@ struct Fused_lanes {
     columns[2] = Vector(_mm256_permute2f128_pd(ab_02, cd_02, 0x31));
     columns[3] = Vector(_mm256_permute2f128_pd(ab_13, cd_13, 0x31));
   }
-  static void load(const Lane_plane* const planes[4], Vector* high, Vector* low) {
-    transpose(planes[0]->high, planes[1]->high, planes[2]->high, planes[3]->high, high);
-    transpose(planes[0]->low, planes[1]->low, planes[2]->low, planes[3]->low, low);
+  static void load(const Lane_plane* planes, const unsigned* of_lane, Vector* high, Vector* low) {
+    const Lane_plane &a = planes[of_lane[0]], &b = planes[of_lane[1]], &c = planes[of_lane[2]],
+                     &d = planes[of_lane[3]];
+    transpose(a.high, b.high, c.high, d.high, high);
+    transpose(a.low, b.low, c.low, d.low, low);
   }
-  /// True if the first `count` lengths, known by a low part and an error, are positive and rounded to
-  /// nearest.
-  static bool are_certain(Vector length, Vector low, Vector error, unsigned long count) {
+  static Vector choose(Vector condition, Vector a, Vector b) {
+    return Vector(_mm256_blendv_pd(__m256d(b), __m256d(a), __m256d(condition)));
+  }
+  /// True in the lane of this number, if there is one.
+  static Vector is_number(unsigned long lane) {
+    const __m256i numbers = _mm256_set_epi64x(3, 2, 1, 0);
+    return Vector(_mm256_cmpeq_epi64(numbers, _mm256_set1_epi64x(static_cast<long long>(lane))));
+  }
+  /// The last lane of `before`, then the others of x.
+  static Vector shift(Vector before, Vector x) {
+    const __m256d middle = _mm256_permute2f128_pd(__m256d(before), __m256d(x), 0x21);
+    return Vector(_mm256_shuffle_pd(middle, __m256d(x), 0x5));
+  }
+  /// Stores lengths, known by a low part and an error, that are positive and rounded to nearest, and 0 for
+  /// others.
+  /// \return true if the first `count` are
+  static bool store_certain(double* to, Vector length, Vector low, Vector error, unsigned long count) {
     const Vector above = length + (low + error), below = length + (low - error);
     const auto certain = (above == length) & (below == length) & (length > all(0));
+    store(to, Vector(_mm256_and_pd(__m256d(certain), __m256d(length))));
     const unsigned others = count < width ? 0xfu << count : 0;
     return ((static_cast<unsigned>(_mm256_movemask_pd(__m256d(certain))) | others) & 0xfu) == 0xfu;
   }
@@ -57,9 +74,12 @@ struct Fused_cells {
 
   static Floats all_floats(float x) { return Floats{x, x, x, x, x, x, x, x}; }
   static Floats load_floats(const float* from) { return Floats(_mm256_load_ps(from)); }
-  static Floats row(const float* const blocks[2], unsigned begin) {
-    const __m128 low = _mm_loadu_ps(blocks[0] + begin), high = _mm_loadu_ps(blocks[1] + begin);
-    return Floats(_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1));
+  template <unsigned D>
+  static void load_planes(const float* const blocks[2], Floats plane[D + 1]) {
+    for (unsigned k = 0; k <= D; ++k) {
+      const __m128 low = _mm_load_ps(blocks[0] + 4 * k), high = _mm_load_ps(blocks[1] + 4 * k);
+      plane[k] = Floats(_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1));
+    }
   }
   static Floats multiply_add(Floats a, Floats b, Floats c) {
     return Floats(_mm256_fmadd_ps(__m256(a), __m256(b), __m256(c)));
@@ -75,6 +95,12 @@ struct Fused_cells {
     return Floats(_mm256_min_ps(half, _mm256_permute_ps(half, _MM_SHUFFLE(1, 0, 3, 2))));
   }
   static unsigned mask(Bits lanes) { return static_cast<unsigned>(_mm256_movemask_ps(__m256(lanes))); }
+  /// The bits by which Exit_lanes has exits, of all cells.
+  static unsigned exits(Bits first, Bits decided) {
+    const __m256i words = _mm256_packs_epi32(__m256i(first), __m256i(decided));
+    return static_cast<unsigned>(_mm256_movemask_epi8(_mm256_packs_epi16(words, words)));
+  }
+  static unsigned exit(unsigned exits, unsigned cell) { return exits >> 16 * cell & 0xff; }
 };
 
 }  // namespace

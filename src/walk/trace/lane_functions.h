@@ -12,11 +12,11 @@ namespace cellwalk::detail {
 struct Lane_functions {
   void (*set_directions)(const Lane_segments& segments, unsigned long count);
   bool (*measure)(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
-                  const Lane_positions& positions);
+                  double* lengths);
   Lane_walk walk_2, walk_3;  ///< in 2D and 3D, if any
 };
 
-extern const Lane_functions fused_lane_functions;
+extern const Lane_functions fused_lane_functions, wide_lane_functions;
 
 }  // namespace cellwalk::detail
 

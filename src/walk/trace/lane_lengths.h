@@ -15,6 +15,9 @@
 // but then the error leaves all lengths open.) Together that is less than 2^16 u^2 M / |n.e|. The unit of
 // errors is twice as much, for terms of higher order, for 1 / (n.e), which is rounded, and for the rounding
 // of the difference of two positions. The length of the segment itself is known within 2^6 u^2 M.
+//
+// The bound holds at ridges and vertices, too: those of a facet lie in its plane, which a segment that passes
+// them meets there and nowhere else, if n.e is not 0; and if it is, the error leaves all lengths open.
 #ifndef CELLWALK_WALK_TRACE_LANE_LENGTHS_H
 #define CELLWALK_WALK_TRACE_LANE_LENGTHS_H
 
@@ -36,19 +39,15 @@ struct Lane_segments {
   double error;  ///< lane_error M
 };
 
+/// The most that lanes read or write beyond the end of an array, and which has to be there.
+inline constexpr unsigned long lane_room = 8;
+
 /// The facets that a segment meets, in order.
 struct Lane_crossings {
-  const Lane_plane* planes;    ///< of all facets
-  const unsigned* plane_of;    ///< the plane of each half-facet
-  const unsigned* half_facet;  ///< those met
+  const Lane_plane* planes;    ///< of all half-facets
+  const unsigned* half_facet;  ///< those met, and lane_room others
   unsigned long count;
   bool end_on_last;  ///< the last of them ends the segment
-};
-
-/// Positions on the segment, and the bounds of their errors: the start, those of the facets, the end; each
-/// array has room for eight more. `length` receives the pieces between them.
-struct Lane_positions {
-  double *high, *low, *error, *length;
 };
 
 namespace {
@@ -98,37 +97,40 @@ inline void set_directions_in_lanes(const Lane_segments& segments, unsigned long
   }
 }
 
-/// The positions of the facets met.
+/// A position on a segment, and the bound of its error.
+template <class V>
+struct Lane_position {
+  V high, low, error;
+};
+
+/// The segment on which facets are met.
 template <class Lanes>
-inline void meet_planes(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
-                        const Lane_positions& positions) {
+class Lane_line {
+ public:
   using V = typename Lanes::Vector;
-  constexpr unsigned long width = Lanes::width;
-  V from[3], e[3], e_low[3];
-  for (int k = 0; k < 3; ++k) {
-    from[k] = Lanes::all(segments.from[k][segment]);
-    e[k] = Lanes::all(segments.direction_high[k][segment]);
-    e_low[k] = Lanes::all(segments.direction_low[k][segment]);
-  }
-  const V unit = Lanes::all(segments.error);
-  for (unsigned long i = 0; i < crossings.count; i += width) {
-    const Lane_plane* of_lane[width];
-    for (unsigned long j = 0; j < width; ++j) {
-      const unsigned long met = i + j < crossings.count ? i + j : crossings.count - 1;
-      of_lane[j] = crossings.planes + crossings.plane_of[crossings.half_facet[met]];
+
+  Lane_line(const Lane_segments& segments, unsigned long segment) : unit_(Lanes::all(segments.error)) {
+    for (int k = 0; k < 3; ++k) {
+      from_[k] = Lanes::all(segments.from[k][segment]);
+      e_[k] = Lanes::all(segments.direction_high[k][segment]);
+      e_low_[k] = Lanes::all(segments.direction_low[k][segment]);
     }
+  }
+
+  /// Where it meets planes.
+  Lane_position<V> meet(const Lane_plane* planes, const unsigned* of_lane) const {
     V n[4], n_low[4];
-    Lanes::load(of_lane, n, n_low);
+    Lanes::load(planes, of_lane, n, n_low);
 
     V slope_low = Lanes::all(0), height_low = n_low[3], along[3], at[3];
     for (int k = 0; k < 3; ++k) {
-      along[k] = n[k] * e[k];
-      at[k] = n[k] * from[k];
+      along[k] = n[k] * e_[k];
+      at[k] = n[k] * from_[k];
       slope_low = Lanes::multiply_add(
-          n[k], e_low[k],
-          Lanes::multiply_add(n_low[k], e[k], slope_low + Lanes::product_error(n[k], e[k], along[k])));
+          n[k], e_low_[k],
+          Lanes::multiply_add(n_low[k], e_[k], slope_low + Lanes::product_error(n[k], e_[k], along[k])));
       height_low =
-          Lanes::multiply_add(-n_low[k], from[k], height_low - Lanes::product_error(n[k], from[k], at[k]));
+          Lanes::multiply_add(-n_low[k], from_[k], height_low - Lanes::product_error(n[k], from_[k], at[k]));
     }
     V sum, slope, height;
     slope_low = slope_low + sum_with_error(along[0], along[1], sum);
@@ -148,38 +150,41 @@ inline void meet_planes(const Lane_segments& segments, unsigned long segment, co
                    (height_low - quotient * slope_low);
     const V correction = rest * inverse;
     const V position = quotient + correction;
-    Lanes::store(positions.high + 1 + i, position);
-    Lanes::store(positions.low + 1 + i, correction - (position - quotient));
-    Lanes::store(positions.error + 1 + i, unit * Lanes::magnitude(inverse));
+    return {position, correction - (position - quotient), unit_ * Lanes::magnitude(inverse)};
   }
-}
 
-/// Computes the lengths of the pieces of a segment.
-/// \return true if each is positive and the double nearest to its exact value
+ private:
+  V from_[3], e_[3], e_low_[3];
+  const V unit_;
+};
+
+/// Computes the lengths of the pieces of a segment, with room for lane_room more: the double nearest to the
+/// exact length, or 0 where that is not certain.
+/// \return true if it is certain of all
 template <class Lanes>
 inline bool measure_in_lanes(const Lane_segments& segments, unsigned long segment,
-                             const Lane_crossings& crossings, const Lane_positions& positions) {
+                             const Lane_crossings& crossings, double* lengths) {
   using V = typename Lanes::Vector;
-  constexpr unsigned long width = Lanes::width;
-  positions.high[0] = positions.low[0] = positions.error[0] = 0;
-  meet_planes<Lanes>(segments, segment, crossings, positions);
-  unsigned long pieces = crossings.count;
-  if (!crossings.end_on_last) {
-    ++pieces;
-    positions.high[pieces] = segments.length_high[segment];
-    positions.low[pieces] = segments.length_low[segment];
-    positions.error[pieces] = segments.error;
-  }
+  const unsigned long count = crossings.count, pieces = crossings.end_on_last ? count : count + 1;
+  const Lane_line<Lanes> line(segments, segment);
+  const Lane_position<V> last{Lanes::all(segments.length_high[segment]),
+                              Lanes::all(segments.length_low[segment]), Lanes::all(segments.error)};
+  Lane_position<V> before{Lanes::all(0), Lanes::all(0), Lanes::all(0)};
   bool are_certain = true;
-  for (unsigned long i = 0; i < pieces; i += width) {
+  for (unsigned long i = 0; i < pieces; i += Lanes::width) {
+    Lane_position<V> end = line.meet(crossings.planes, crossings.half_facet + i);
+    const auto is_last = Lanes::is_number(count - i);
+    end = {Lanes::choose(is_last, last.high, end.high), Lanes::choose(is_last, last.low, end.low),
+           Lanes::choose(is_last, last.error, end.error)};
+    const Lane_position<V> begin{Lanes::shift(before.high, end.high), Lanes::shift(before.low, end.low),
+                                 Lanes::shift(before.error, end.error)};
+    before = end;
     V difference;
-    V low = sum_with_error(Lanes::load(positions.high + i + 1), -Lanes::load(positions.high + i), difference);
-    low = low + (Lanes::load(positions.low + i + 1) - Lanes::load(positions.low + i));
+    V low = sum_with_error(end.high, -begin.high, difference);
+    low = low + (end.low - begin.low);
     const V length = difference + low;
     low = low - (length - difference);
-    const V error = Lanes::load(positions.error + i + 1) + Lanes::load(positions.error + i);
-    Lanes::store(positions.length + i, length);
-    are_certain &= Lanes::are_certain(length, low, error, pieces - i);
+    are_certain &= Lanes::store_certain(lengths + i, length, low, begin.error + end.error, pieces - i);
   }
   return are_certain;
 }

@@ -85,22 +85,15 @@ Lane_plane plane_at(const Cell_view<D>& cell, std::size_t facet) {
 template <int D>
 Lane_planes lane_planes(const Snapshot<D>& snapshot) {
   Lane_planes made;
-  made.plane_of.assign(snapshot.half_facet_slots(), 0);
-  made.planes.reserve(1 + snapshot.half_facet_slots() / 2);
-  made.planes.push_back(unknown_plane());
+  made.planes.assign(snapshot.half_facet_slots(), unknown_plane());
   for (std::size_t index = 0; index < snapshot.cell_slots(); ++index) {
     const Cell c = snapshot.cell(index);
     if (c == Cell::none) continue;
     const Cell_view<D> cell = snapshot.view(c);
     for (std::size_t i = 0; i < cell.facet_count(); ++i) {
       const Half_facet f = Snapshot<D>::half_facet(c, i), other = snapshot.opposite(f);
-      if (other != Half_facet::none && to_index(other) < to_index(f) && made.plane_of[to_index(other)] != 0) {
-        made.plane_of[to_index(f)] = made.plane_of[to_index(other)];
-        continue;
-      }
-      made.plane_of[to_index(f)] = static_cast<unsigned>(made.planes.size());
-      made.planes.push_back(plane_at(cell, i));
-      if (other != Half_facet::none) made.plane_of[to_index(other)] = made.plane_of[to_index(f)];
+      const bool is_known = other != Half_facet::none && snapshot.index(snapshot.cell_of(other)) < index;
+      made.planes[to_index(f)] = is_known ? made.planes[to_index(other)] : plane_at(cell, i);
     }
   }
   const Plane_frame<D>& frame = snapshot.frame();

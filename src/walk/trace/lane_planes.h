@@ -5,7 +5,6 @@
 
 #include <cellwalk/environment/snapshot.h>
 
-#include <cstdint>
 #include <vector>
 
 #include "lane_lengths.h"
@@ -13,8 +12,7 @@
 namespace cellwalk::detail {
 
 struct Lane_planes {
-  std::vector<Lane_plane> planes;
-  std::vector<unsigned> plane_of;  ///< of each half-facet; both sides of a facet have one
+  std::vector<Lane_plane> planes;  ///< of each half-facet; both sides of a facet have the same
   double size = 0;                 ///< at least that of every coordinate in the frame
 };
 

@@ -16,7 +16,8 @@ inline constexpr unsigned lane_slots = 16;
 /// How a row ended: decided by planes, and if so in a cell or at a wall.
 enum class Lane_verdict : unsigned char { undecided, arrived, blocked };
 
-/// The half-facets that a row met, the wall included, are [begin, end) of those of its slot.
+/// Steps of all walks are counted together. In step i the walk of a slot meets the half-facet lane_slots i +
+/// slot of those of all; the row met those of the steps [begin, end), the wall included.
 struct Lane_row {
   Lane_verdict verdict;
   unsigned char slot;
@@ -32,21 +33,22 @@ struct Lane_motion {
   Lane_row* row;       ///< where its end is written
 };
 
-/// The half-facets met by the rows of a slot, with room for more.
+/// The half-facets met, with room for those of some steps.
 struct Lane_met {
   unsigned* half_facet;
-  unsigned long count, room;
+  unsigned long steps;
 };
 
 struct Lane_walks {
   const float* blocks;    ///< of four planes each, by cell: components of their normals, then offsets
   const unsigned* links;  ///< of half-facets: the neighbour, with the highest bit where there is a wall
   float error, slack;     ///< of planes, and of times beside that
+  const unsigned char (*ahead)[64];  ///< of half-facets: what is fetched of those met, to be read next
   const Lane_motion* motions;
   unsigned long count;
-  unsigned long most_facets;                 ///< a motion that meets more of them is undecided
-  Lane_met* met;                             ///< of each slot
-  void (*grow)(void* owner, unsigned slot);  ///< makes room in a slot
+  unsigned long most_facets;  ///< about as many as a motion may meet; otherwise it is undecided
+  Lane_met met;
+  Lane_met (*grow)(void* owner);  ///< makes room for more steps
   void* owner;
 };
 
@@ -54,18 +56,19 @@ using Lane_walk = void (*)(const Lane_walks& walks);
 
 namespace {
 
-/// Lanes by their masks: the exit of a cell is the only one of `exits`, and all four planes must be decided.
+/// The exit of a cell, by bits of its four facets: of those met first, and 16 times those that are decided.
+/// There is one if it is the only one met first, and all are decided.
 struct Exit_lanes {
   static constexpr unsigned char none = 4;
-  unsigned char lane[256];  ///< at index exits + 16 decided
+  unsigned char lane[256];
   constexpr Exit_lanes() : lane() {
     for (unsigned i = 0; i < 256; ++i) {
-      const unsigned exits = i & 0xf, decided = i >> 4;
+      const unsigned first = i & 0xf, decided = i >> 4;
       lane[i] = decided != 0xf ? none
-                : exits == 1   ? 0
-                : exits == 2   ? 1
-                : exits == 4   ? 2
-                : exits == 8   ? 3
+                : first == 1   ? 0
+                : first == 2   ? 1
+                : first == 4   ? 2
+                : first == 8   ? 3
                                : none;
     }
   }
@@ -77,12 +80,10 @@ inline constexpr Exit_lanes exit_lanes;
 template <class Lanes, unsigned D>
 class Walks_in_lanes {
  public:
-  explicit Walks_in_lanes(const Lane_walks& walks) : walks_(walks) {
+  explicit Walks_in_lanes(const Lane_walks& walks) : walks_(walks), met_(walks.met) {
     for (unsigned slot = 0; slot < lane_slots; ++slot) {
-      const Lane_met& met = walks.met[slot];
-      next_[slot] = met.half_facet + met.count;
       cell_[slot] = walks.motions[0].cell;  // any, where there are fewer motions than slots
-      start(slot);
+      start(slot, 0);
     }
   }
 
@@ -92,42 +93,50 @@ class Walks_in_lanes {
     const V never = Lanes::all_floats(4), one = Lanes::all_floats(1);
     const float* const blocks = walks_.blocks;
     const unsigned* const links = walks_.links;
-    while (active_ != 0)
+    const auto* const ahead = walks_.ahead;
+    for (unsigned step = 0; active_ != 0; ++step) {
+      if (step == met_.steps) make_room(step);
+      unsigned* const met = met_.half_facet + lane_slots * static_cast<unsigned long>(step);
       for (unsigned slot = 0; slot < lane_slots; slot += Lanes::cells) {
         const float* block[Lanes::cells];
         for (unsigned i = 0; i < Lanes::cells; ++i)
           block[i] = blocks + 4 * (D + 1) * static_cast<unsigned long>(cell_[slot + i]);
         const Lines& lines = lines_[slot / Lanes::cells];
-        V a = Lanes::row(block, 4 * D), b = a;
+        V plane[D + 1];
+        Lanes::template load_planes<D>(block, plane);
+        V a = plane[D], b = a;
         for (unsigned k = 0; k < D; ++k) {
-          const V normal = Lanes::row(block, 4 * k);
-          a = Lanes::multiply_add(normal, Lanes::load_floats(lines.from[k]), a);
-          b = Lanes::multiply_add(normal, Lanes::load_floats(lines.to[k]), b);
+          a = Lanes::multiply_add(plane[k], Lanes::load_floats(lines.from[k]), a);
+          b = Lanes::multiply_add(plane[k], Lanes::load_floats(lines.to[k]), b);
         }
         const auto outside = Lanes::is_above(b, error);
         const V inverse = one / (b - a);
         const V time = -a * inverse, width = Lanes::multiply_add(error, inverse, slack);
         const V upper = Lanes::choose(outside, time + width, never);
         const auto first = Lanes::is_at_most(time - width, Lanes::least_of_four(upper)) & outside;
-        const unsigned exits = Lanes::mask(first), beyond = Lanes::mask(outside);
-        const unsigned decided = beyond | Lanes::mask(Lanes::is_above(-error, b));
+        const auto exits = Lanes::exits(first, Lanes::is_above(-error, b) | outside);
         for (unsigned i = 0; i < Lanes::cells; ++i) {
           const unsigned s = slot + i;
-          const unsigned lane = exit_lanes.lane[(exits >> 4 * i & 0xf) | (decided >> 4 * i & 0xf) << 4];
+          const unsigned lane = exit_lanes.lane[Lanes::exit(exits, i)];
           if (lane != Exit_lanes::none && is_certain_[s]) [[likely]] {
             const unsigned f = 4 * cell_[s] + lane, link = links[f];
-            *next_[s]++ = f;
-            if (static_cast<int>(link) >= 0 && next_[s] != limit_[s]) [[likely]] {
+            met[s] = f;
+            __builtin_prefetch(ahead[f]);
+            if (static_cast<int>(link) >= 0) [[likely]] {
               cell_[s] = link;
+              __builtin_prefetch(blocks + 4 * (D + 1) * static_cast<unsigned long>(link));
+              __builtin_prefetch(links + 4 * static_cast<unsigned long>(link));
               continue;
             }
-            pass_or_end(s, link);
+            end(s, Lane_verdict::blocked, step + 1, step + 1);
           } else {
-            const unsigned inside = Lanes::mask(Lanes::is_above(-error, a)) >> 4 * i & 0xf;
-            leave_or_end(s, lane, beyond >> 4 * i & 0xf, decided >> 4 * i & 0xf, inside);
+            const bool is_inside = (Lanes::mask(Lanes::is_above(-error, a)) >> (4 * i + lane) & 1) != 0;
+            const bool arrives = Lanes::exit(exits, i) == 0xf0 && (Lanes::mask(outside) >> 4 * i & 0xf) == 0;
+            if (motion_[s]) leave_or_end(s, lane, is_inside, arrives, step);
           }
         }
       }
+    }
   }
 
  private:
@@ -135,10 +144,11 @@ class Walks_in_lanes {
     float from[D][4 * Lanes::cells], to[D][4 * Lanes::cells];
   };
 
-  void start(unsigned slot) {
+  /// \param step the first of the walk
+  void start(unsigned slot, unsigned step) {
     Lines& lines = lines_[slot / Lanes::cells];
     const unsigned first = 4 * (slot % Lanes::cells);
-    begin_[slot] = static_cast<unsigned>(next_[slot] - walks_.met[slot].half_facet);
+    begin_[slot] = step;
     is_certain_[slot] = false;
     if (next_motion_ == walks_.count) {
       motion_[slot] = nullptr;
@@ -155,60 +165,42 @@ class Walks_in_lanes {
     motion_[slot] = &motion;
     cell_[slot] = motion.cell;
     is_certain_[slot] = motion.starts_inside;
-    set_limit(slot);
     ++active_;
   }
 
-  /// Where to look whether there is room, or a walk that does not end.
-  void set_limit(unsigned slot) {
-    const Lane_met& met = walks_.met[slot];
-    const unsigned long most = begin_[slot] + walks_.most_facets;
-    limit_[slot] = met.half_facet + (most < met.room ? most : met.room);
-  }
-
-  [[gnu::noinline]] void end(unsigned slot, Lane_verdict verdict) {
-    const auto met = static_cast<unsigned>(next_[slot] - walks_.met[slot].half_facet);
-    *motion_[slot]->row = {verdict, static_cast<unsigned char>(slot), begin_[slot], met, cell_[slot]};
+  /// \param end the step after its last one
+  /// \param next the first of the next walk in the slot
+  [[gnu::noinline]] void end(unsigned slot, Lane_verdict verdict, unsigned end, unsigned next) {
+    *motion_[slot]->row = {verdict, static_cast<unsigned char>(slot), begin_[slot], end, cell_[slot]};
     --active_;
-    start(slot);
+    start(slot, next);
   }
 
-  /// After a facet that is a wall, or where the limit is reached.
-  [[gnu::noinline]] void pass_or_end(unsigned slot, unsigned link) {
-    Lane_met& met = walks_.met[slot];
-    met.count = static_cast<unsigned long>(next_[slot] - met.half_facet);
-    const bool is_endless = met.count - begin_[slot] >= walks_.most_facets;
-    if (met.count == met.room) {
-      walks_.grow(walks_.owner, slot);
-      next_[slot] = met.half_facet + met.count;
-    }
-    if (static_cast<int>(link) < 0 || is_endless) {
-      end(slot, static_cast<int>(link) < 0 ? Lane_verdict::blocked : Lane_verdict::undecided);
-      return;
-    }
-    cell_[slot] = link;
-    is_certain_[slot] = true;
-    set_limit(slot);
+  /// Makes room for more steps, and ends walks that seem to have no end.
+  [[gnu::noinline]] void make_room(unsigned step) {
+    met_ = walks_.grow(walks_.owner);
+    for (unsigned slot = 0; slot < lane_slots; ++slot)
+      if (motion_[slot] && step - begin_[slot] > walks_.most_facets)
+        end(slot, Lane_verdict::undecided, step, step);
   }
 
   /// Where the exit is not that of most steps: none, undecided, or from a start in the boundary.
-  [[gnu::noinline]] void leave_or_end(unsigned slot, unsigned lane, unsigned beyond, unsigned decided,
-                                      unsigned inside) {
-    if (!motion_[slot]) return;
-    if (lane != Exit_lanes::none && (inside >> lane & 1) != 0) {
-      const unsigned f = 4 * cell_[slot] + lane;
-      *next_[slot]++ = f;
-      pass_or_end(slot, walks_.links[f]);
-      return;
-    }
-    end(slot, decided == 0xf && beyond == 0 ? Lane_verdict::arrived : Lane_verdict::undecided);
+  /// \param is_inside the start is on the inner side of the exit, if there is one
+  [[gnu::noinline]] void leave_or_end(unsigned slot, unsigned lane, bool is_inside, bool arrives,
+                                      unsigned step) {
+    if (lane == Exit_lanes::none || !is_inside)
+      return end(slot, arrives ? Lane_verdict::arrived : Lane_verdict::undecided, step, step + 1);
+    const unsigned f = 4 * cell_[slot] + lane, link = walks_.links[f];
+    met_.half_facet[lane_slots * static_cast<unsigned long>(step) + slot] = f;
+    if (static_cast<int>(link) < 0) return end(slot, Lane_verdict::blocked, step + 1, step + 1);
+    cell_[slot] = link;
+    is_certain_[slot] = true;
   }
 
   const Lane_walks& walks_;
   Lines lines_[lane_slots / Lanes::cells];
+  Lane_met met_;
   unsigned cell_[lane_slots];
-  unsigned* next_[lane_slots];
-  unsigned* limit_[lane_slots];
   bool is_certain_[lane_slots];  ///< the line passes the inside of the cell before any exit
   unsigned begin_[lane_slots];
   const Lane_motion* motion_[lane_slots];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The lengths of pieces, by twice the precision of a double where its error bound decides how they are
+// The length of a piece, by twice the precision of a double where its error bound decides how it is
 // rounded, and exactly where it does not.
 #include "piece_lengths.h"
 
@@ -104,21 +104,19 @@ double exact_length(const Point<D>& from, const Point<D>& to, const Fraction& be
 }  // namespace
 
 template <int D>
-void append_lengths(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& to,
-                    std::span<const Cell_exit> exits, std::size_t cells, std::vector<double>& lengths) {
-  const std::optional<Bounded_twofold> whole = bounded_length<D>(from, to);
-  Piece_end<D> begin(0.0);
-  for (std::size_t i = 0; i < cells; ++i) {
-    Piece_end<D> end = i < exits.size() ? Piece_end<D>(snapshot, from, to, exits[i]) : Piece_end<D>(1.0);
-    const auto certain = certain_length(begin, end, whole);
-    lengths.push_back(certain ? *certain : exact_length<D>(from, to, begin.exact(), end.exact()));
-    begin = std::move(end);
-  }
+double length_of_piece(const Snapshot<D>& snapshot, const Point<D>& from, const Point<D>& to,
+                       std::span<const Cell_exit> exits, std::size_t i) {
+  const auto end_at = [&](std::size_t exit, double otherwise) {
+    return exit < exits.size() ? Piece_end<D>(snapshot, from, to, exits[exit]) : Piece_end<D>(otherwise);
+  };
+  const Piece_end<D> begin = i == 0 ? Piece_end<D>(0.0) : end_at(i - 1, 0), end = end_at(i, 1);
+  const auto certain = certain_length(begin, end, bounded_length<D>(from, to));
+  return certain ? *certain : exact_length<D>(from, to, begin.exact(), end.exact());
 }
 
-template void append_lengths<2>(const Snapshot<2>&, const Point<2>&, const Point<2>&,
-                                std::span<const Cell_exit>, std::size_t, std::vector<double>&);
-template void append_lengths<3>(const Snapshot<3>&, const Point<3>&, const Point<3>&,
-                                std::span<const Cell_exit>, std::size_t, std::vector<double>&);
+template double length_of_piece<2>(const Snapshot<2>&, const Point<2>&, const Point<2>&,
+                                   std::span<const Cell_exit>, std::size_t);
+template double length_of_piece<3>(const Snapshot<3>&, const Point<3>&, const Point<3>&,
+                                   std::span<const Cell_exit>, std::size_t);
 
 }  // namespace cellwalk::detail

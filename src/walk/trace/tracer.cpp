@@ -2,11 +2,15 @@
 // Walks of many particles, then the lengths of each. A motion that planes do not decide is walked and
 // measured on its own.
 #include <cellwalk/internal/kernel/check_finite.h>
+#include <cellwalk/internal/kernel/predicates.h>
+#include <cellwalk/internal/walk/signs.h>
+#include <cellwalk/internal/walk/star.h>
 #include <cellwalk/kernel/error.h>
 #include <cellwalk/walk/trace.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -32,6 +36,10 @@ namespace {
 /// The functions for this processor.
 const Lane_functions& chosen_functions() {
 #if defined(CELLWALK_HAS_FUSED_LANES)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("bmi2"))
+    return wide_lane_functions;
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return fused_lane_functions;
 #endif
   return plain_lane_functions;
@@ -67,7 +75,7 @@ class Block_segments {
   const Lane_segments& lanes() const { return lanes_; }
 
  private:
-  static constexpr std::size_t stride = rows_of_block + 8;
+  static constexpr std::size_t stride = rows_of_block + lane_room;
   std::vector<double> kept_;
   Lane_segments lanes_{};
 };
@@ -96,8 +104,10 @@ class Trace_call {
         functions_(functions),
         traces_(traces),
         counts_(counts),
-        walks_(snapshot, functions),
-        segments_(detail::lane_error * planes.size) {}
+        walks_(snapshot, planes, functions),
+        segments_(detail::lane_error * planes.size),
+        pieces_(traces.cells.size()),
+        crossings_(traces.crossings.size()) {}
 
   /// Appends the rows, and returns the state of those particles that arrive, in order.
   std::vector<Particle<D>> run(std::span<const Particle<D>> particles, std::span<const Point<D>> targets) {
@@ -107,12 +117,31 @@ class Trace_call {
       const auto rows = particles.subspan(begin, count);
       walks_.run(rows, targets.subspan(begin, count));
       segments_.set<D>(rows, targets.subspan(begin, count), functions_);
+      expected_ = 0;
+      for (std::size_t i = 0; i < count; ++i) expected_ += pieces_at_most(i);
+      make_room(0);
       for (std::size_t i = 0; i < count; ++i) append(i, targets[begin + i], moved[begin + i]);
     }
+    traces_.cells.resize(pieces_);
+    traces_.lengths.resize(pieces_);
+    traces_.crossings.resize(crossings_);
     return moved;
   }
 
  private:
+  std::size_t pieces_at_most(std::size_t i) const { return walks_.count_of_met(walks_.row(i)) + 1; }
+
+  /// Makes room for so many pieces and crossings, and those expected of the rest of the block.
+  void make_room(std::size_t more) {
+    const std::size_t pieces = pieces_ + more + expected_ + detail::lane_room,
+                      crossings = crossings_ + more + expected_;
+    if (traces_.cells.size() < pieces) {
+      traces_.cells.resize(pieces);
+      traces_.lengths.resize(pieces);
+    }
+    if (traces_.crossings.size() < crossings) traces_.crossings.resize(crossings);
+  }
+
   /// \param i its number in the block
   void append(std::size_t i, const Point<D>& target, Particle<D>& particle) {
     const detail::Lane_row& row = walks_.row(i);
@@ -120,61 +149,115 @@ class Trace_call {
     if (particle.cell == Cell::none)
       end.status = Walk_status::lost;
     else if (row.verdict == detail::Lane_verdict::undecided || !append_certified(i, target, particle, end))
-      append_exact(target, particle, end);
-    traces_.offsets.push_back(traces_.cells.size());
-    traces_.crossing_offsets.push_back(traces_.crossings.size());
+      append_exact(i, target, particle, end);
+    traces_.offsets.push_back(pieces_);
+    traces_.crossing_offsets.push_back(crossings_);
+    expected_ -= pieces_at_most(i);
   }
 
   bool append_certified(std::size_t i, const Point<D>& target, Particle<D>& particle, Trace_end& end) {
     const detail::Lane_row& row = walks_.row(i);
-    const std::span<const unsigned> met = walks_.met(row);
     const bool is_blocked = row.verdict == detail::Lane_verdict::blocked;
-    const std::size_t pieces = met.size() + (is_blocked ? 0 : 1), passed = pieces - 1;
-    constexpr std::size_t room = 8;  // that the function may write beyond
-    if (high_.size() < pieces + 1 + room)
-      for (auto* buffer : {&high_, &low_, &error_, &length_}) buffer->resize(2 * (pieces + 1 + room));
-    const detail::Lane_crossings crossings{planes_.planes.data(), planes_.plane_of.data(), met.data(),
-                                           met.size(), is_blocked};
-    if (!functions_.measure(segments_.lanes(), i, crossings,
-                            {high_.data(), low_.data(), error_.data(), length_.data()}))
-      return false;
-
+    const std::size_t met = walks_.count_of_met(row), passed = is_blocked ? met - 1 : met,
+                      pieces = passed + 1;
+    set_room_of_met(met);
     const std::uint32_t* const links = snapshot_.links(Cell{0});  // of passable facets: the cells beyond
-    if (cells_.size() < pieces) cells_.resize(2 * pieces);
-    cells_[0] = particle.cell;
-    for (std::size_t k = 0; k < passed; ++k) cells_[k + 1] = Cell{links[met[k]]};
-    const auto* const facets = reinterpret_cast<const Half_facet*>(met.data());
-    traces_.crossings.insert(traces_.crossings.end(), facets, facets + passed);
-    traces_.cells.insert(traces_.cells.end(), cells_.data(), cells_.data() + pieces);
-    traces_.lengths.insert(traces_.lengths.end(), length_.data(), length_.data() + pieces);
+    Cell* const cells = traces_.cells.data() + pieces_;
+    Half_facet* const crossings = traces_.crossings.data() + crossings_;
+    cells[0] = particle.cell;
+    for (std::size_t k = 0; k < passed; ++k) {
+      const unsigned f = met_[k] = walks_.met(row, k);
+      cells[k + 1] = Cell{links[f]};
+      crossings[k] = Half_facet{f};
+    }
+    if (is_blocked) met_[passed] = walks_.met(row, passed);
+    if (!measure(i, met, pieces)) return false;
+    pieces_ += pieces;
+    crossings_ += passed;
     ++counts_.walks;
     counts_.stays += passed == 0 && !is_blocked;
     counts_.crossings += passed;
     end = {is_blocked ? Walk_status::contact : Walk_status::arrived, Cell{row.cell},
-           is_blocked ? Half_facet{met.back()} : Half_facet::none};
+           is_blocked ? Half_facet{met_[passed]} : Half_facet::none};
     if (!is_blocked) particle = {target, end.cell, D, passed == 0 ? particle.aimed : std::uint16_t{0}};
     return true;
   }
 
-  void append_exact(const Point<D>& target, Particle<D>& particle, Trace_end& end) {
+  void append_exact(std::size_t i, const Point<D>& target, Particle<D>& particle, Trace_end& end) {
     visited_.clear();
     exits_.clear();
-    piece_lengths_.clear();
+    crossed_.clear();
     Walk_options options;
     options.visited = &visited_;
     options.exits = &exits_;
-    options.crossed = &traces_.crossings;
+    options.crossed = &crossed_;
     options.locates_contact = false;
     const Point<D> from = particle.position;
     const Walk_result<D> result = move(snapshot_, particle, target, counts_, options);
     end = {result.status, result.cell, result.contact ? result.contact->facet : Half_facet::none};
+    make_room(std::max(visited_.size(), crossed_.size()));
+    std::copy(crossed_.begin(), crossed_.end(), traces_.crossings.data() + crossings_);
+    crossings_ += crossed_.size();
     if (from == target) return;
-    detail::append_lengths(snapshot_, from, target, exits_, visited_.size(), piece_lengths_);
-    for (std::size_t i = 0; i < visited_.size(); ++i) {
-      if (piece_lengths_[i] < 0) continue;
-      traces_.cells.push_back(visited_[i]);
-      traces_.lengths.push_back(piece_lengths_[i]);
+    set_room_of_met(exits_.size());
+    for (std::size_t k = 0; k < exits_.size(); ++k) met_[k] = facet_at(visited_[k], exits_[k], from, target);
+    Float_point<D> y;
+    const bool are_bounded = snapshot_.frame().map(from, y);  // as lengths by planes require
+    measure(i, exits_.size(), visited_.size());
+    const double* const measured = traces_.lengths.data() + pieces_;
+    for (std::size_t k = 0; k < visited_.size(); ++k) {
+      const bool is_certain = measured[k] > 0 && are_bounded;
+      if (!is_certain && k == 0 && is_at_exit(from)) continue;
+      const double length =
+          is_certain ? measured[k] : detail::length_of_piece<D>(snapshot_, from, target, exits_, k);
+      if (length < 0) continue;
+      traces_.cells[pieces_] = visited_[k];
+      traces_.lengths[pieces_++] = length;
     }
+  }
+
+  void set_room_of_met(std::size_t count) {
+    if (met_.size() < count + detail::lane_room) met_.resize(2 * count + detail::lane_room);
+  }
+
+  /// The lengths of the pieces of row i of the block where they are to be appended, if it meets the planes of
+  /// the first facets of met_ one after the other: 0 for those that are not certain.
+  /// \return true if all are
+  bool measure(std::size_t i, std::size_t met, std::size_t pieces) {
+    return functions_.measure(segments_.lanes(), i, {planes_.planes.data(), met_.data(), met, met == pieces},
+                              traces_.lengths.data() + pieces_);
+  }
+
+  /// A facet whose plane the motion meets where it leaves a cell, and nowhere else: at a ridge or vertex, of
+  /// the facets of the cell there the one to which the motion is steepest. (If it runs in all of them, the
+  /// error of its place is not bounded.)
+  unsigned facet_at(Cell cell, const Cell_exit& exit, const Point<D>& from, const Point<D>& to) const {
+    if (exit.facet != Half_facet::none) return to_index(exit.facet);
+    const Cell_view<D> view = snapshot_.view(cell);
+    Half_facet best = Half_facet::none;
+    double steepest = 0;
+    for (std::size_t k = 0; k < view.facet_count(); ++k) {
+      if (!detail::facet_contains(view, k, exit.u, exit.v)) continue;
+      const Half_facet facet = Snapshot<D>::half_facet(cell, k);
+      const detail::Lane_plane& plane = planes_.planes[to_index(facet)];
+      double slope = 0;
+      for (std::size_t axis = 0; axis < D; ++axis) slope += plane.high[axis] * (to[axis] - from[axis]);
+      if (best != Half_facet::none && !(std::abs(slope) > steepest)) continue;
+      best = facet;
+      steepest = std::abs(slope);
+    }
+    return to_index(best);
+  }
+
+  /// True if the motion leaves its first cell where it starts.
+  bool is_at_exit(const Point<D>& from) const {
+    if (exits_.empty()) return false;
+    const Cell_exit& exit = exits_[0];
+    Walk_counts counts;  // the sign is none of the walk
+    if (exit.facet != Half_facet::none)
+      return detail::side<Exact>(snapshot_.view(visited_[0]), snapshot_.facet_of(exit.facet), from, counts) ==
+             0;
+    return on_segment<D>(snapshot_.point(exit.u), snapshot_.point(exit.v), from);
   }
 
   const Snapshot<D>& snapshot_;
@@ -184,8 +267,11 @@ class Trace_call {
   Walk_counts& counts_;
   detail::Block_walk<D> walks_;
   detail::Block_segments segments_;
-  std::vector<double> high_, low_, error_, length_, piece_lengths_;
-  std::vector<Cell> cells_, visited_;
+  std::size_t pieces_, crossings_;  ///< appended
+  std::size_t expected_ = 0;        ///< pieces of the rows of the block that are not yet appended
+  std::vector<unsigned> met_;
+  std::vector<Cell> visited_;
+  std::vector<Half_facet> crossed_;
   std::vector<Cell_exit> exits_;
 };
 
