@@ -32,6 +32,7 @@ struct Part {
 };
 const std::map<std::string, Part> parts{{"walks", {judge_walks, 20'000}},
                                         {"sweeps", {judge_sweeps, 5'000}},
+                                        {"membrane_sweeps", {judge_membrane_sweeps, 5'000}},
                                         {"thick_sweeps", {judge_thick_sweeps, 2'000}}};
 /// Finished together, and then kept; so many times the share of a population.
 constexpr std::uint64_t worlds_of_chunk = 50;

@@ -12,7 +12,8 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 from tables import read_rows_if_any, share, table  # noqa: E402
 
-PARTS = [("walks", "Walks"), ("sweeps", "Complete sweeps"), ("thick_sweeps", "Complete sweeps with a radius")]
+PARTS = [("walks", "Walks"), ("sweeps", "Complete sweeps among solid cells"),
+         ("membrane_sweeps", "Complete sweeps among membranes"), ("thick_sweeps", "Complete sweeps with a radius")]
 
 
 def rows_of(part, rows):

@@ -66,8 +66,7 @@ bool Sweep_judge<D>::clip(Polygon& polygon, const Line& line) {
   std::array<int, most_corners> signs;
   bool any_inside = false, any_outside = false;
   for (std::size_t i = 0; i < polygon.size; ++i) {
-    const Corner& x = polygon.corners[i];
-    const Wide value = Wide(line.u) * x.u + Wide(line.w) * x.w + Wide(line.c) * x.z;
+    const Wide value = line.at(polygon.corners[i]);
     signs[i] = (value > 0) - (value < 0);
     any_inside |= value < 0;
     any_outside |= value > 0;
@@ -84,10 +83,7 @@ bool Sweep_judge<D>::clip(Polygon& polygon, const Line& line) {
     const Line& edge = polygon.edges[i];
     if (here <= 0) add(polygon.corners[i], here == 0 && next > 0 ? line : edge);
     if (here * next >= 0) continue;
-    Corner x{edge.w * line.c - edge.c * line.w, edge.c * line.u - edge.u * line.c,
-             edge.u * line.w - edge.w * line.u};
-    if (x.z < 0) x = {-x.u, -x.w, -x.z};
-    add(x, next > 0 ? line : edge);
+    add(crossing(edge, line), next > 0 ? line : edge);
   }
   polygon = rest;
   return true;
@@ -97,8 +93,12 @@ bool Sweep_judge<D>::clip(Polygon& polygon, const Line& line) {
 /// plane the triangle lies.
 template <int D>
 void Sweep_judge<D>::meet(std::uint32_t cell, std::size_t without) {
-  // The edges of the triangle itself: w >= 0, u <= 1, w <= u.
-  Polygon polygon{3, {{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}}, {{{0, -1, 0}, {1, 0, -1}, {-1, 1, 0}}}};
+  Polygon polygon;
+  for (const Corner& corner : triangle_corners) {
+    polygon.corners[polygon.size] = corner;
+    polygon.edges[polygon.size] = triangle_sides[polygon.size];
+    ++polygon.size;
+  }
   const Side* sides = lattice_.sides(cell);
   for (std::size_t i = 0; i < lattice_.sides_of_cell(); ++i) {
     if (i == without) continue;
@@ -108,7 +108,7 @@ void Sweep_judge<D>::meet(std::uint32_t cell, std::size_t without) {
     if (!clip(polygon, {a - q, b - a, q})) return;
   }
   for (std::size_t i = 0; i < polygon.size; ++i) {
-    const Time time{polygon.corners[i].w, polygon.corners[i].u};
+    const Time time = polygon.corners[i].time();
     if (time.denominator > 0 && time < first_) first_ = time;
   }
 }
@@ -157,12 +157,9 @@ Sweep_truth Sweep_judge<D>::judge(std::uint32_t cell, const Edge_sites<D>& move)
   return truth;
 }
 
-namespace {
-
-/// True if the segment from x to q passes these half-facets in order, from a cell of x to one of q.
 template <int D>
 bool is_passed(const World<D>& world, const Site<D>& x, const Site<D>& q, std::uint32_t cell,
-               std::uint32_t last, const Chain& chain) {
+               std::uint32_t last, const Chain& chain, std::vector<Time>* places) {
   const Lattice<D>& lattice = world.lattice;
   Time low{0, 1};  // where the segment passes the facet
   for (const Half_facet half : chain) {
@@ -184,10 +181,13 @@ bool is_passed(const World<D>& world, const Site<D>& x, const Site<D>& q, std::u
       if (!keep(at_x, at_q)) return false;
       if (cell * lattice.sides_of_cell() + i == number && !keep(-at_x, -at_q)) return false;
     }
+    if (places) places->push_back(low);
     cell = lattice.side(number).beyond;
   }
   return cell == last;
 }
+
+namespace {
 
 /// True if the point is on the segment, up to rounding.
 template <int D>
@@ -228,10 +228,12 @@ Sweep_fault fault_of(const World<D>& world, const Sweep_truth& truth, const Edge
              : Sweep_fault::wrong_chain;
 }
 
-#define CELLWALK_ENDURANCE_SWEEP(D)                                                        \
-  template class Sweep_judge<D>;                                                           \
-  template bool holds(const Lattice<D>&, int, std::uint32_t, const Site<D>&);              \
-  template Sweep_fault fault_of(const World<D>&, const Sweep_truth&, const Edge_sites<D>&, \
+#define CELLWALK_ENDURANCE_SWEEP(D)                                                                      \
+  template class Sweep_judge<D>;                                                                         \
+  template bool holds(const Lattice<D>&, int, std::uint32_t, const Site<D>&);                            \
+  template bool is_passed(const World<D>&, const Site<D>&, const Site<D>&, std::uint32_t, std::uint32_t, \
+                          const Chain&, std::vector<Time>*);                                             \
+  template Sweep_fault fault_of(const World<D>&, const Sweep_truth&, const Edge_sites<D>&,               \
                                 const Particle<D>&, const Sweep_result<D>&);
 CELLWALK_ENDURANCE_SWEEP(2)
 CELLWALK_ENDURANCE_SWEEP(3)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The judge of complete sweeps of edges without a radius, where all free cells at each point are linked there
-// (link_free_cells()). Then every segment in free space, closed, has one chain up to equality, and a motion is
-// blocked at the first time at which the edge enters the open rest: what is solid, or outside.
+// (link_free_cells()). Then every segment in free space, closed, has one chain up to equality, and a motion
+// is blocked at the first time at which the edge enters the open rest: what is solid, or outside.
 #ifndef CELLWALK_EXPERIMENTS_ENDURANCE_SWEEP_JUDGE_H
 #define CELLWALK_EXPERIMENTS_ENDURANCE_SWEEP_JUDGE_H
 
@@ -42,6 +42,27 @@ struct Edge_sites {
   Site<D> a, b, q;
 };
 
+/// The points x = q + u (a - q) + w (b - a) of a triangle have 0 <= w <= u <= 1, and the time w / u.
+struct Corner {
+  Whole u, w, z;  ///< z > 0: the point (u / z, w / z)
+
+  Time time() const { return {w, u}; }
+};
+struct Line {
+  Whole u, w, c;  ///< u U + w W + c <= 0
+
+  /// Positive outside of the line.
+  Wide at(const Corner& x) const { return Wide(u) * x.u + Wide(w) * x.w + Wide(c) * x.z; }
+};
+/// Where two lines meet that are not parallel.
+inline Corner crossing(const Line& a, const Line& b) {
+  const Corner x{a.w * b.c - a.c * b.w, a.c * b.u - a.u * b.c, a.u * b.w - a.w * b.u};
+  return x.z < 0 ? Corner{-x.u, -x.w, -x.z} : x;
+}
+/// The sides of the triangle: w >= 0, u <= 1, w <= u; each leads from a corner to the next one.
+inline constexpr std::array<Line, 3> triangle_sides{{{0, -1, 0}, {1, 0, -1}, {-1, 1, 0}}};
+inline constexpr std::array<Corner, 3> triangle_corners{{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}};
+
 template <int D>
 class Sweep_judge {
  public:
@@ -55,13 +76,6 @@ class Sweep_judge {
   Walk_judge<D>& walks() { return walks_; }
 
  private:
-  /// The points x = q + u (a - q) + w (b - a) of the triangle have 0 <= w <= u <= 1, and the time w / u.
-  struct Line {
-    Whole u, w, c;  ///< u U + w W + c Z <= 0
-  };
-  struct Corner {
-    Whole u, w, z;  ///< z > 0: the point (u / z, w / z)
-  };
   static constexpr std::size_t most_corners = 10;
   struct Polygon {
     std::size_t size = 0;
@@ -91,6 +105,12 @@ class Sweep_judge {
 template <int D>
 Sweep_fault fault_of(const World<D>& world, const Sweep_truth& truth, const Edge_sites<D>& move,
                      const Particle<D>& q, const Sweep_result<D>& result);
+
+/// True if the segment from x to q passes these half-facets in order, from a cell of x to one of q.
+/// \param places if not null, receives where it may pass them, from 0 at x to 1 at q
+template <int D>
+bool is_passed(const World<D>& world, const Site<D>& x, const Site<D>& q, std::uint32_t cell,
+               std::uint32_t last, const Chain& chain, std::vector<Time>* places = nullptr);
 
 /// True if the closure of a cell holds a site.
 template <int D>

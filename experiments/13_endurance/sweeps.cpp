@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Edges without a radius that move on and on in one world, one end at a time.
+#include <optional>
+#include <type_traits>
 #include <utility>
 
-#include "sweep_judge.h"
+#include "membrane_judge.h"
 #include "trial.h"
 #include "wrong.h"
 
 namespace cellwalk::endurance {
 namespace {
 
-template <int D>
+/// \tparam walls solid cells alone, or membranes, too
+template <int D, Walls walls>
 class Sweep_trial {
  public:
   explicit Sweep_trial(const Trial& trial)
       : trial_(trial),
         draw_(trial.seed),
         bits_(bits_of(trial.population.grid, sweep_bits)),
-        world_(random_lattice<D>(trial.population.cut, Walls::solid, draw_),
+        world_(random_lattice<D>(trial.population.cut, walls, draw_),
                random_placement<D>(Placing::affine, bits_, reach_in_cells, draw_), bits_),
-        judge_(world_.lattice, bits_),
+        judge_(make_judge(world_)),
         sites_(world_.lattice, trial.population.grid, bits_) {}
 
   Tally run() {
@@ -33,19 +36,41 @@ class Sweep_trial {
   }
 
  private:
+  static constexpr bool with_membranes = walls == Walls::any;
+  using Judge = std::conditional_t<with_membranes, Membrane_judge<D>, Sweep_judge<D>>;
+
+  static Judge make_judge(const World<D>& world) {
+    if constexpr (with_membranes)
+      return Judge(world);
+    else
+      return Judge(world.lattice, world.bits);
+  }
+
+  /// A particle on any side of walls.
+  std::optional<Particle<D>> particle_at(const Site<D>& x) {
+    const auto particles = world_.locator.particles_at(world_.place(x));
+    if (particles.size() < 2) return particles.empty() ? std::nullopt : std::optional(particles[0]);
+    return particles[draw_.whole(static_cast<std::uint32_t>(particles.size()))];
+  }
+
   /// An edge in free space.
   void begin() {
     for (;;) {
       p_at_ = sites_.begin(draw_);
       q_at_ = sites_.next(p_at_, draw_);
-      const auto p = world_.locator.particle_at(world_.place(p_at_));
+      const auto p = particle_at(p_at_);
       if (!p) continue;
-      const auto q = world_.locator.particle_at(world_.place(q_at_));
+      const auto q = particle_at(q_at_);
       if (!q) continue;
       const Chain_result<D> edge = find_chain(world_.snapshot(), *p, *q, counts_.walk);
-      const bool is_free = judge_.walks().follow(world_.snapshot().index(p->cell), p_at_, q_at_).arrives;
-      if (is_free == edge.contact.has_value()) note({p_at_, p_at_, q_at_}, "wrong chain of an edge at rest");
-      if (edge.contact || !is_free) continue;
+      const std::uint32_t p_cell = world_.snapshot().index(p->cell),
+                          q_cell = world_.snapshot().index(q->cell);
+      // Among membranes the edge may lead to the other side of one at its end.
+      const bool is_free = !edge.contact;
+      const bool is_right = is_free ? is_passed(world_, p_at_, q_at_, p_cell, q_cell, edge.chain)
+                                    : with_membranes || !judge_.walks().follow(p_cell, p_at_, q_at_).arrives;
+      if (!is_right) note({p_at_, p_at_, q_at_}, "wrong chain of an edge at rest");
+      if (!is_free || !is_right) continue;
       p_ = *p;
       q_ = *q;
       chain_ = edge.chain;
@@ -60,10 +85,16 @@ class Sweep_trial {
       std::swap(p_at_, q_at_);
     }
     const Edge_sites<D> move{p_at_, target(), q_at_};
+    const std::optional<Sweep_truth> judged = judge(move);
+    if (!judged) return;
+    const Sweep_truth& truth = *judged;
     const Sweep_result<D> result =
         sweep_edge(world_.snapshot(), p_, world_.place(move.b), q_, chain_, {}, counts_);
-    const Sweep_truth truth = judge_.judge(world_.snapshot().index(p_.cell), move);
-    const Sweep_fault fault = fault_of(world_, truth, move, q_, result);
+    Sweep_fault fault = fault_of(world_, truth, move, q_, result);
+    if constexpr (with_membranes)
+      if (fault == Sweep_fault::none && truth.is_free &&
+          !judge_.is_chain_after(cells_of(result.p, result.chain), move))
+        fault = Sweep_fault::wrong_chain;
     ++tally_.motions;
     tally_.degenerate += truth.degenerate;
     tally_.blocked += !truth.is_free;
@@ -76,6 +107,18 @@ class Sweep_trial {
       p_ = result.p;
       chain_ = result.chain;
     }
+  }
+
+  Edge_cells cells_of(const Particle<D>& p, const Chain& chain) const {
+    return {world_.snapshot().index(p.cell), world_.snapshot().index(q_.cell), &chain};
+  }
+
+  /// Nothing if the triangle lies in a plane of facets, among which may be membranes.
+  std::optional<Sweep_truth> judge(const Edge_sites<D>& move) {
+    if constexpr (with_membranes)
+      return judge_.judge(cells_of(p_, chain_), move);
+    else
+      return judge_.judge(world_.snapshot().index(p_.cell), move);
   }
 
   /// Some edges lead exactly through points of the coarse grid at the end.
@@ -95,7 +138,7 @@ class Sweep_trial {
   Draw draw_;
   const int bits_;
   const World<D> world_;
-  Sweep_judge<D> judge_;
+  Judge judge_;
   Sites<D> sites_;
   Site<D> p_at_{}, q_at_{};
   Particle<D> p_{}, q_{};
@@ -107,7 +150,13 @@ class Sweep_trial {
 }  // namespace
 
 Tally judge_sweeps(const Trial& trial) {
-  return trial.population.dimension == 2 ? Sweep_trial<2>(trial).run() : Sweep_trial<3>(trial).run();
+  return trial.population.dimension == 2 ? Sweep_trial<2, Walls::solid>(trial).run()
+                                         : Sweep_trial<3, Walls::solid>(trial).run();
+}
+
+Tally judge_membrane_sweeps(const Trial& trial) {
+  return trial.population.dimension == 2 ? Sweep_trial<2, Walls::any>(trial).run()
+                                         : Sweep_trial<3, Walls::any>(trial).run();
 }
 
 }  // namespace cellwalk::endurance

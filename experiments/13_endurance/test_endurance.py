@@ -19,7 +19,7 @@ from tables import read_rows  # noqa: E402
 
 class Endurance(quick_case.QuickCase):
     experiment = HERE
-    expected = ["walks.csv", "sweeps.csv", "thick_sweeps.csv"]
+    expected = ["walks.csv", "sweeps.csv", "membrane_sweeps.csv", "thick_sweeps.csv"]
 
     def test_nothing_is_wrong_and_half_is_degenerate(self):
         for name in self.expected:

@@ -166,7 +166,7 @@ TEST(WalkJudge, AgreesWithTheOracleAndRefusesWrongAnswers) {
             << " wrong answers refused\n";
   EXPECT_GT(seen.degenerate, seen.motions / 2);
   EXPECT_GT(seen.blocked, seen.motions / 5);
-  EXPECT_GT(seen.choices, seen.motions / 100);
+  EXPECT_GT(seen.choices, seen.motions / 400);
   for (std::size_t f = 1; f < seen.faults.size(); ++f) EXPECT_GT(seen.faults[f], 20u) << walk_fault_names[f];
 }
 

@@ -37,10 +37,10 @@ struct Dyadic {
 /// How far the hulls are apart along a direction, compared with the radius.
 enum class Reach { less, equal, more, open };
 
-/// In rounded numbers in cells, all of them below 2^5. A product of coordinates of the triangle, of a wall and
-/// of a direction is off by less than 2^-p 2^12 of their sizes, p the digits of N. Directions that are not
-/// small beside their terms are off by less than 2^14 2^-p of themselves, and so gaps by 2^20 2^-p in all; the
-/// margin is 2^3 times that.
+/// In rounded numbers in cells, all of them below 2^5. A product of coordinates of the triangle, of a wall
+/// and of a direction is off by less than 2^-p 2^12 of their sizes, p the digits of N. Directions that are
+/// not small beside their terms are off by less than 2^14 2^-p of themselves, and so gaps by 2^20 2^-p in
+/// all; the margin is 2^3 times that.
 template <class N, int D>
 Reach rounded_reach(const Hulls<N, D>& hulls, const Direction<N, D>& direction, N radius, N margin) {
   const N square = product(direction.n, direction.n);

@@ -50,7 +50,8 @@ class Thick_trial {
     return false;
   }
 
-  /// Up to half a cell: mostly the distance of an end to a plane that may be a wall, or a multiple of an eighth.
+  /// Up to half a cell: mostly the distance of an end to a plane that may be a wall, or a multiple of an
+  /// eighth.
   Whole radius() {
     const Whole unit = Whole{1} << bits_;
     if (trial_.population.grid != Grid::fine && draw_.whole(4) > 0) {

@@ -58,8 +58,9 @@ struct Trial {
 };
 
 Tally judge_walks(const Trial& trial);
-/// Complete sweeps of edges without a radius, and with one.
+/// Complete sweeps of edges without a radius, among solid cells and among membranes, too; and with a radius.
 Tally judge_sweeps(const Trial& trial);
+Tally judge_membrane_sweeps(const Trial& trial);
 Tally judge_thick_sweeps(const Trial& trial);
 
 /// Sites of motions.
@@ -71,8 +72,8 @@ class Sites {
 
   /// A site in the box of the lattice, with which a run of motions begins.
   Site<D> begin(Draw& draw);
-  /// Where a motion from there leads, mostly at most half a cell or a cell away along each axis, at times out of
-  /// the box.
+  /// Where a motion from there leads, mostly at most half a cell or a cell away along each axis, at times out
+  /// of the box.
   Site<D> next(const Site<D>& from, Draw& draw);
   /// The same on the coarse grid, wherever it begins.
   Site<D> coarse_near(const Site<D>& from, Draw& draw) const;
@@ -88,8 +89,9 @@ class Sites {
   Whole step_ = 1;  ///< of the run
 };
 
-/// Units of a cell are 2^bits: on the coarse grid, and on others. Walks then have coordinates of up to 52 bits
-/// in space; the judge of sweeps multiplies four coordinates in 128 bits, that of thick ones more in 113.
+/// Units of a cell are 2^bits: on the coarse grid, and on others. Walks then have coordinates of up to 52
+/// bits in space; the judge of sweeps multiplies four coordinates in 128 bits, that of thick ones more in
+/// 113.
 constexpr int coarse_bits = 3, walk_bits = 40, sweep_bits = 24, thick_bits = 16;
 constexpr int bits_of(Grid grid, int fine_bits) { return grid == Grid::coarse ? coarse_bits : fine_bits; }
 /// Of all sites, off the origin, in cells.

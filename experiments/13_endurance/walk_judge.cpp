@@ -159,6 +159,20 @@ const Walk_truth& Walk_judge<D>::follow(std::uint32_t cell, const Site<D>& a, co
 }
 
 template <int D>
+bool Walk_judge<D>::leads_on(std::uint32_t cell, unsigned on,
+                             const std::array<std::int16_t, most_families>& planes,
+                             const std::array<Whole, most_families>& ways) {
+  for (unsigned rest = on; rest; rest &= rest - 1) {
+    const auto j = static_cast<std::size_t>(std::countr_zero(rest));
+    crossings_[j].plane = planes[j];
+    crossings_[j].way = ways[j];
+  }
+  cells_.assign(1, cell);
+  link(on);
+  return enter(on);
+}
+
+template <int D>
 std::span<const std::uint32_t> Walk_judge<D>::linked_with(std::uint32_t cell) {
   cells_.assign(1, cell);
   link(at_end_);

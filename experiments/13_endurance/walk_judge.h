@@ -59,6 +59,11 @@ class Walk_judge {
   /// \pre the closure of the cell holds a
   const Walk_truth& follow(std::uint32_t cell, const Site<D>& a, const Site<D>& b);
 
+  /// True if a motion in a cell leads on from a point, in the direction in which the families change so.
+  /// \param on the families that are whole at the point, a bit each, with their values
+  bool leads_on(std::uint32_t cell, unsigned on, const std::array<std::int16_t, most_families>& planes,
+                const std::array<Whole, most_families>& ways);
+
   /// The cells in which a legal way may end, of the motion followed last.
   std::span<const std::uint32_t> ends() const { return cells_; }
   bool may_end_in(std::uint32_t cell) const;
