@@ -283,6 +283,7 @@ std::optional<Sweep_truth> Membrane_judge<D>::judge(const Edge_cells& edge, cons
   truth.is_free = first_ == Time{1, 1};
   const Walk_truth& walk = walks_.follow(edge.p, move.a, move.b);
   truth.by_vertex = !walk.arrives && walk.end == first_;
+  truth.may_be_by_vertex = walk.has_choice;
   return truth;
 }
 

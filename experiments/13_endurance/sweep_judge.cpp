@@ -213,7 +213,9 @@ Sweep_fault fault_of(const World<D>& world, const Sweep_truth& truth, const Edge
     const Point<D> from = world.place(move.a);
     if (!is_near<D>(contact.point, from + contact.time * (world.place(move.b) - from), q.position))
       return Sweep_fault::wrong_time;
-    if ((contact.body == Body_feature::vertex) != truth.by_vertex) return Sweep_fault::wrong_feature;
+    const bool is_by_vertex = contact.body == Body_feature::vertex;
+    if (is_by_vertex ? !truth.by_vertex && !truth.may_be_by_vertex : truth.by_vertex)
+      return Sweep_fault::wrong_feature;
     const std::uint32_t number =
         to_index(contact.facet) < world.side_of.size() ? world.side_of[to_index(contact.facet)] : no_cell;
     return number != no_cell && world.lattice.is_wall(number) ? Sweep_fault::none : Sweep_fault::wrong_wall;

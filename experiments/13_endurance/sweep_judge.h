@@ -16,9 +16,10 @@ namespace cellwalk::endurance {
 /// All that a sweep may answer.
 struct Sweep_truth {
   bool is_free = false;
-  Time end{1, 1};           ///< where it is blocked
-  bool by_vertex = false;   ///< the end that moves is blocked at that time
-  bool degenerate = false;  ///< a corner of the triangle lies on a facet, or the triangle is a segment
+  Time end{1, 1};                 ///< where it is blocked
+  bool by_vertex = false;         ///< the end that moves is blocked at that time, on all sides
+  bool may_be_by_vertex = false;  ///< or on some
+  bool degenerate = false;        ///< a corner of the triangle lies on a facet, or the triangle is a segment
 };
 
 enum class Sweep_fault {

@@ -69,8 +69,8 @@ class Comparison {
     Particle<D> to = p_;
     std::vector<Cell> visited;
     std::vector<Half_facet> crossed;
-    const bool is_stopped =
-        move(snapshot, to, target, counts, {&visited, &crossed}).status != Walk_status::arrived;
+    const auto walked = move(snapshot, to, target, counts, {&visited, &crossed});
+    const bool is_stopped = walked.status != Walk_status::arrived;
     if (is_stopped) to.position = target, to.cell = visited.back();
     const auto motion =
         test::motion_of(oracle_.soup(), snapshot, {p_, to, visited, crossed, is_stopped}, q_, chain_);
@@ -180,7 +180,7 @@ void compare_all() {
             << seen.by_edge << " before the end, " << seen.choices << " with a choice of the end\n";
   EXPECT_GT(seen.degenerate, seen.moves / 2);
   EXPECT_GT(seen.blocked, seen.moves / 5);
-  EXPECT_GT(seen.by_edge, seen.moves / 50);
+  EXPECT_GT(seen.by_edge, seen.moves / 100);
   for (std::size_t f = 1; f < seen.faults.size(); ++f) EXPECT_GT(seen.faults[f], 20u) << sweep_fault_names[f];
 }
 

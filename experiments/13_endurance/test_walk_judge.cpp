@@ -72,6 +72,7 @@ class Comparison {
   void expect_equal(const oracle::Case<D>& slow, const Walk_truth& truth) {
     std::vector<std::uint32_t> ends(judge_.ends().begin(), judge_.ends().end()), expected;
     ASSERT_EQ(truth.arrives, !slow.truth.arrivals.empty()) << describe(slow);
+    EXPECT_EQ(truth.has_choice, slow.truth.choices > 0) << describe(slow);
     int dimension = 0;
     if (truth.arrives) {
       expected = slow.truth.arrivals;

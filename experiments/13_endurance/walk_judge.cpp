@@ -90,6 +90,17 @@ bool Walk_judge<D>::enter(unsigned on) {
   return left > 0;
 }
 
+/// True if not all cells that hold the motion are linked all along it.
+/// \param within the families on whose planes it runs
+template <int D>
+bool Walk_judge<D>::is_divided(unsigned within) {
+  const std::vector<std::uint32_t> all = cells_;
+  cells_.resize(1);
+  link(within);
+  cells_ = all;
+  return std::any_of(all.begin(), all.end(), [this](std::uint32_t c) { return seen_[c] != links_; });
+}
+
 template <int D>
 const Walk_truth& Walk_judge<D>::follow(std::uint32_t cell, const Site<D>& a, const Site<D>& b) {
   begin(a, b);
@@ -110,6 +121,7 @@ const Walk_truth& Walk_judge<D>::follow(std::uint32_t cell, const Site<D>& a, co
     link(on);
     if (enter(on)) {
       cells_.swap(linked_);
+      if (within != 0 && is_divided(within)) truth_.has_choice = true;
       return true;
     }
     truth_.end = time;

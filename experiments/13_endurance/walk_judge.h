@@ -29,8 +29,9 @@ bool is_rounded(double t, const Time& time);
 /// All that a walk may answer.
 struct Walk_truth {
   bool arrives = false;
-  Time end{1, 1};     ///< where it is blocked
-  int dimension = 0;  ///< of the lowest cell of the lattice that holds the end of the way
+  Time end{1, 1};           ///< where it is blocked
+  bool has_choice = false;  ///< somewhere it may go on on several sides of walls
+  int dimension = 0;        ///< of the lowest cell of the lattice that holds the end of the way
   bool degenerate =
       false;  ///< the way starts, passes or ends on an edge or vertex, ends on a facet, or runs in one
 };
@@ -83,6 +84,7 @@ class Walk_judge {
   void begin(const Site<D>& a, const Site<D>& b);
   void link(unsigned on);
   bool enter(unsigned on);
+  bool is_divided(unsigned within);
   bool is_at(const Side& side, unsigned on) const {
     return (on >> side.family & 1u) && side.plane == crossings_[side.family].plane;
   }
