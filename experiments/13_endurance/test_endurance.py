@@ -30,7 +30,7 @@ class Endurance(quick_case.QuickCase):
             self.assertGreater(total["degenerate"], total["judged"] / 2 if name != "thick_sweeps.csv" else total["judged"] / 4, name)
             self.assertGreater(total["blocked"], total["judged"] / 5, name)
             if name != "walks.csv":
-                self.assertGreater(total["by_edge"], total["judged"] / 20, name)
+                self.assertGreater(total["by_edge"], total["judged"] / 50, name)
             self.assertEqual(json.loads((self.out / name).with_suffix(".json").read_text())["judged"], total["judged"])
         self.assertFalse((self.out / "wrong").exists())
 
@@ -43,10 +43,10 @@ class Endurance(quick_case.QuickCase):
         whole, lines = table.read_bytes(), kept.read_text().splitlines(keepends=True)
         table.unlink()
         # One part is made anew; the counts of another one are taken from the file, whatever they are.
-        lines[1] = lines[1].replace('"counts":[20000,', '"counts":[20007,')
+        lines[1] = lines[1].replace('"counts":[60000,', '"counts":[60007,')
         kept.write_text("".join(lines[:-1]) + lines[-1][:20])
         subprocess.run(run, check=True, stdout=subprocess.DEVNULL)
-        self.assertEqual(table.read_bytes(), whole.replace(b",20000,", b",20007,", 1))
+        self.assertEqual(table.read_bytes(), whole.replace(b",60000,", b",60007,", 1))
         other = subprocess.run([*run, "--seed", "2"], capture_output=True, text=True)
         self.assertEqual((other.returncode, "other settings" in other.stderr), (1, True), other.stderr)
 

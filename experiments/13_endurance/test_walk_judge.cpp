@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The judge of walks against the slow oracle, and against answers that were made wrong.
+#include <cellwalk/internal/io/csv.h>
+#include <cellwalk/internal/io/repro_file.h>
+#include <cellwalk/io/mesh_file.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <vector>
 
@@ -11,6 +16,7 @@
 #include "walk/oracle_trial.h"
 #include "walk/walk_judge.h"
 #include "walk_judge.h"
+#include "wrong.h"
 
 namespace cellwalk::endurance {
 namespace {
@@ -169,6 +175,35 @@ TEST(WalkJudge, AgreesWithTheOracleAndRefusesWrongAnswers) {
   EXPECT_GT(seen.blocked, seen.motions / 5);
   EXPECT_GT(seen.choices, seen.motions / 400);
   for (std::size_t f = 1; f < seen.faults.size(); ++f) EXPECT_GT(seen.faults[f], 20u) << walk_fault_names[f];
+}
+
+TEST(WrongAnswers, AreKeptWithTheirWorlds) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "endurance_wrong";
+  std::filesystem::remove_all(folder);
+  const Trial trial{{3, Cut::simplices, Grid::fine}, 7, 1, folder};
+  Draw draw(trial.seed);
+  const World<3> world(random_lattice<3>(Cut::simplices, Walls::any, draw),
+                       random_placement<3>(Placing::affine, walk_bits, reach_in_cells, draw), walk_bits);
+  Sites<3> sites(world.lattice, Grid::fine, walk_bits);
+  Walk_motion<3> motion{sites.begin(draw), sites.begin(draw), {}, {}, 5};
+  motion.from = world.place(motion.a);
+  motion.to = world.place(motion.b);
+  keep_walk(trial, world, motion, "made up");
+  const auto read =
+      std::get<Repro<3>>(io::read_repro(folder / "walk_3D_simplices_fine_0000000000000007.json"));
+  EXPECT_EQ(read.from, motion.from);
+  EXPECT_EQ(read.to, motion.to);
+  EXPECT_EQ(read.cell, 5u);
+  EXPECT_EQ(read.soup.points, soup_of(world.lattice, world.place, world.bits).points);
+
+  keep_sweep(trial, world, {motion.a, motion.b, motion.a}, 0.25, "made up");
+  const std::filesystem::path path = folder / "thick_3D_simplices_fine_0000000000000007";
+  const auto mesh = io::read_mesh(std::filesystem::path(path).replace_extension(".ovm"));
+  EXPECT_EQ(std::get<Cell_soup<3>>(mesh.mesh).impassable, read.soup.impassable);
+  const auto table = io::Csv_table::read(std::filesystem::path(path).replace_extension(".csv"));
+  EXPECT_EQ(table.number(0, table.column("ty")).value, motion.to[1]);
+  EXPECT_EQ(table.number(0, table.column("radius")).value, 0.25);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(WalkJudge, RoundsTimesDown) {
