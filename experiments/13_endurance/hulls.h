@@ -33,11 +33,13 @@ std::array<N, 2> across(const std::array<N, 2>& a) {
   return {-a[1], a[0]};
 }
 
-/// A direction, and a bound of the sizes of the terms that were summed up for it.
+/// A direction, and the square of a length of which its rounding error is a small part: that of the terms
+/// that were summed up, where each difference of corners counts as if it was 2^4 longer (2^8 is that
+/// squared).
 template <class N, int D>
 struct Direction {
   Tuple<N, D> n{};
-  N square_of_terms{};  ///< only of the order of magnitude matters
+  N square_of_terms{};
 };
 
 /// A triangle and a wall: a segment (2D), or a triangle or a quadrangle with parallel sides.
@@ -60,7 +62,7 @@ struct Hulls {
     if constexpr (D == 2) {
       if (k < 4) {
         const Tuple<N, D> e = k == 0 ? edge(wall, 2, 0) : edge(triangle, 3, k - 1);
-        return {across(e), product(e, e)};
+        return {across(e), longer(e)};
       }
       return difference(k - 4);
     } else {
@@ -88,23 +90,24 @@ struct Hulls {
   }
 
  private:
+  static N longer(const Tuple<N, D>& x) { return product(x, x) + N(256); }
   static void widen(const N& x, N& low, N& high) {
     if (x < low) low = x;
     if (high < x) high = x;
   }
   Direction<N, D> difference(std::size_t k) const {
-    const Tuple<N, D>&a = triangle[k % 3], &b = wall[k / 3];
-    return {minus(b, a), product(a, a) + product(b, b)};
+    const Tuple<N, D> n = minus(wall[k / 3], triangle[k % 3]);
+    return {n, longer(n)};
   }
   static Direction<N, D> crossed(const Tuple<N, D>& e, const Tuple<N, D>& f) {
-    return {across(e, f), product(e, e) * product(f, f)};
+    return {across(e, f), longer(e) * longer(f)};
   }
   /// The part of u across e.
   static Direction<N, D> beside(const Tuple<N, D>& u, const Tuple<N, D>& e) {
     const N ee = product(e, e), ue = product(u, e);
     Tuple<N, D> n;
     for (std::size_t i = 0; i < D; ++i) n[i] = ee * u[i] - ue * e[i];
-    return {n, ee * ee * product(u, u)};
+    return {n, longer(e) * longer(e) * longer(u)};
   }
 };
 

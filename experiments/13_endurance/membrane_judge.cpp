@@ -45,17 +45,6 @@ bool Membrane_judge<D>::see(const Edge_sites<D>& move, Sweep_truth& truth) {
   return in_plane;
 }
 
-template <int D>
-bool Membrane_judge<D>::is_flat() const {
-  for (std::size_t i = 0; i < D; ++i) {
-    const std::size_t k = (i + 1) % D;
-    if (Wide(at_a_[i] - at_q_[i]) * (at_b_[k] - at_q_[k]) !=
-        Wide(at_a_[k] - at_q_[k]) * (at_b_[i] - at_q_[i]))
-      return false;
-  }
-  return true;
-}
-
 /// The edge keeps its sides. Its end makes it longer, or comes back along it, and goes on from the other end.
 template <int D>
 void Membrane_judge<D>::judge_flat(const Edge_cells& edge, const Edge_sites<D>& move, Sweep_truth& truth) {
@@ -254,7 +243,7 @@ bool Membrane_judge<D>::leads_off(const Edge_cells& edge, const Site<D>& p, cons
 template <int D>
 bool Membrane_judge<D>::is_chain_after(const Edge_cells& edge, const Edge_sites<D>& move) {
   Sweep_truth ignored;
-  if (see(move, ignored) || is_flat()) return true;
+  if (see(move, ignored) || is_flat(move)) return true;
   Values back{};
   for (std::size_t j = 0; j < lattice_.families().size(); ++j) back[j] = at_a_[j] - at_b_[j];
   return leads_off(edge, move.b, move.q, back);
@@ -265,7 +254,7 @@ std::optional<Sweep_truth> Membrane_judge<D>::judge(const Edge_cells& edge, cons
   Sweep_truth truth;
   first_ = {1, 1};
   const bool in_plane = see(move, truth);
-  const bool flat = is_flat();
+  const bool flat = is_flat(move);
   if (in_plane && !flat) return {};
   if (flat) {
     judge_flat(edge, move, truth);

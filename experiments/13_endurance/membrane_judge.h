@@ -45,7 +45,6 @@ class Membrane_judge {
   };
 
   bool see(const Edge_sites<D>& move, Sweep_truth& truth);
-  bool is_flat() const;
   void judge_flat(const Edge_cells& edge, const Edge_sites<D>& move, Sweep_truth& truth);
   bool leads_off(const Edge_cells& edge, const Site<D>& p, const Site<D>& q, const Values& ways);
   void meet_walls();
@@ -62,7 +61,6 @@ class Membrane_judge {
   Walk_judge<D> walks_;
   std::vector<std::uint32_t> walls_;                 ///< a side each
   std::vector<std::array<std::uint32_t, 2>> edges_;  ///< of the lattice in 3D, by their points
-  std::vector<std::uint32_t> cells_;                 ///< by floors
   Values at_a_{}, at_b_{}, at_q_{};
   Time first_;
 };

@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-walks=1000000000 sweeps=70000000 membrane_sweeps=20000000 thick_sweeps=10000000
+walks=1000000000 sweeps=45000000 membrane_sweeps=45000000 thick_sweeps=10000000
 others=()
 while [ $# -gt 0 ]; do
   case "$1" in

@@ -38,18 +38,6 @@ void Sweep_judge<D>::see(const Edge_sites<D>& move) {
   }
 }
 
-/// True if the triangle is a segment or a point.
-template <int D>
-bool Sweep_judge<D>::is_flat() const {
-  for (std::size_t i = 0; i < D; ++i) {
-    const std::size_t k = (i + 1) % D;
-    if (Wide(at_a_[i] - at_q_[i]) * (at_b_[k] - at_q_[k]) !=
-        Wide(at_a_[k] - at_q_[k]) * (at_b_[i] - at_q_[i]))
-      return false;
-  }
-  return true;
-}
-
 /// True if all corners of the triangle are on the outside of one side, or on it.
 template <int D>
 bool Sweep_judge<D>::misses(std::uint32_t cell) const {
@@ -126,7 +114,7 @@ Sweep_truth Sweep_judge<D>::judge(std::uint32_t cell, const Edge_sites<D>& move)
   }
   const Walk_truth& walk = walks_.follow(cell, move.a, move.b);
   first_ = {1, 1};
-  if (is_flat()) {
+  if (is_flat(move)) {
     // The edge covers nothing but what its end passes.
     truth.degenerate = true;
     first_ = walk.end;

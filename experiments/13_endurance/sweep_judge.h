@@ -43,6 +43,18 @@ struct Edge_sites {
   Site<D> a, b, q;
 };
 
+/// True if the triangle that the edge sweeps is a segment or a point.
+template <int D>
+bool is_flat(const Edge_sites<D>& move) {
+  for (std::size_t i = 0; i < D; ++i) {
+    const std::size_t k = (i + 1) % D;
+    if (Wide(move.a[i] - move.q[i]) * (move.b[k] - move.q[k]) !=
+        Wide(move.a[k] - move.q[k]) * (move.b[i] - move.q[i]))
+      return false;
+  }
+  return true;
+}
+
 /// The points x = q + u (a - q) + w (b - a) of a triangle have 0 <= w <= u <= 1, and the time w / u.
 struct Corner {
   Whole u, w, z;  ///< z > 0: the point (u / z, w / z)
@@ -85,7 +97,6 @@ class Sweep_judge {
   };
 
   void see(const Edge_sites<D>& move);
-  bool is_flat() const;
   bool misses(std::uint32_t cell) const;
   void meet(std::uint32_t cell, std::size_t without);
   static bool clip(Polygon& polygon, const Line& line);

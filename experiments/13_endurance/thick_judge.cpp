@@ -2,6 +2,9 @@
 #include "thick_judge.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
+#ifndef __SIZEOF_FLOAT128__
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#endif
 
 #include <algorithm>
 #include <bit>
@@ -13,7 +16,11 @@
 namespace cellwalk::endurance {
 namespace {
 
+#ifdef __SIZEOF_FLOAT128__
 __extension__ using Quad = __float128;  // 113 bits; not of ISO C++
+#else
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+#endif
 using Large = boost::multiprecision::cpp_int;
 
 /// A time as digits / 2^shift.
@@ -37,10 +44,12 @@ struct Dyadic {
 /// How far the hulls are apart along a direction, compared with the radius.
 enum class Reach { less, equal, more, open };
 
-/// In rounded numbers in cells, all of them below 2^5. A product of coordinates of the triangle, of a wall
-/// and of a direction is off by less than 2^-p 2^12 of their sizes, p the digits of N. Directions that are
-/// not small beside their terms are off by less than 2^14 2^-p of themselves, and so gaps by 2^20 2^-p in
-/// all; the margin is 2^3 times that.
+/// In rounded numbers, in cells. Let u be 2^-p for numbers of p digits. Corners have coordinates below 2^4,
+/// and those at a time are off by less than 2^5 u each; so differences of corners are off by less than 2^7 u,
+/// and directions by less than 2^6 u of the root of `square_of_terms`. Directions that are longer than 2^-12
+/// of that root are off by less than 2^18 u of themselves. Gaps between points that are nearer than 2^5 to
+/// each other then differ by less than 2^24 u, and by 2^9 u for all other roundings; the margin is 2^26 u. If
+/// the gap is large enough, the direction does not matter.
 template <class N, int D>
 Reach rounded_reach(const Hulls<N, D>& hulls, const Direction<N, D>& direction, N radius, N margin) {
   const N square = product(direction.n, direction.n);
@@ -155,7 +164,7 @@ bool Thick_judge<D>::is_apart(const Swept& swept, const Wall& wall, Whole radius
   open.clear();
   for (std::size_t k = 0; k < hulls.direction_count(); ++k) {
     const Reach reach =
-        rounded_reach<double, D>(hulls, hulls.direction(k), static_cast<double>(radius) * unit, 0x1p-30);
+        rounded_reach<double, D>(hulls, hulls.direction(k), static_cast<double>(radius) * unit, 0x1p-27);
     if (reach == Reach::more) return true;
     if (reach == Reach::open) open.push_back(k);
   }
@@ -166,7 +175,7 @@ bool Thick_judge<D>::is_apart(const Swept& swept, const Wall& wall, Whole radius
   still_open.clear();
   for (const std::size_t k : open) {
     const Reach reach = rounded_reach<Quad, D>(longer, longer.direction(k),
-                                               static_cast<Quad>(radius) * static_cast<Quad>(unit), 0x1p-90);
+                                               static_cast<Quad>(radius) * static_cast<Quad>(unit), 0x1p-87);
     if (reach == Reach::more) return true;
     if (reach == Reach::open) still_open.push_back(k);
   }
