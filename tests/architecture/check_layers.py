@@ -40,7 +40,7 @@ TEST_WORLDS = {"generators": {"environment"}, "environment": {"generators"}, "wa
 # Folders of tests that are of no one layer.
 OVERALL_TESTS = {"cli", "consumer", "fuzz", "viewer"}
 # Experiments whose results are judged by the oracles of tests, and where those are.
-JUDGED = {"02_exact_versus_float", "05_degenerate_worlds", "07_moving_walls", "degenerate_corpus"}
+JUDGED = {"02_exact_versus_float", "05_degenerate_worlds", "07_moving_walls", "13_endurance", "degenerate_corpus"}
 JUDGES = {"oracle", "kernel", "walk", "edge", "reshape"}
 
 GPL_LAYERS = {"meshing"}
