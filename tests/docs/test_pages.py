@@ -32,7 +32,7 @@ import pictures
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 FOR_SITE = re.compile(r"<!-- site: .*? -->")  # its links lead to what the site alone has (docs/page_filter.py)
-CONSOLE = re.compile(r"(?:<!-- (.*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
+CONSOLE = re.compile(r"(?:<!-- ([^>]*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
 FEWEST = {"links": 60, "options": 15, "commands": 8, "pictures": 2}  # so that a test that finds nothing does not pass
 FEWEST_LONG = {"commands": 10, "pictures": 10}
