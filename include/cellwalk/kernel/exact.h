@@ -46,9 +46,8 @@ struct Predicate_counts {
 static_assert(names_all_before<Predicate_counts>(sizeof(Predicate_counts)));
 
 /// Exact signs at the cost of double arithmetic in nearly all cases. The default.
-/// Cost: about 5 ns if the filter decides; otherwise 30 to 70 ns if points lie some ulp off a plane, or the
-/// coordinates along each axis are whole numbers below 2^60 in some unit, as nearly always within a mesh;
-/// else to 10 us where they lie in a plane that is not parallel to an axis, and no two of them coincide.
+/// Cost: about 5 ns if the filter decides; else 30 to 70 ns some ulp off a plane, or in one if coordinates
+/// along each axis are whole numbers below 2^60 in some unit, as in most meshes; to 10 us in other planes.
 struct Exact {
   static constexpr bool is_exact = true;
   static constexpr bool uses_certificates = true;
