@@ -35,7 +35,7 @@ vessel() {
   "$python" examples/python/learn_catheter.py --processes "$threads" --policy "$out/learning.csv" \
     --vessel "$CELLWALK_TEST_DATA/lumens/$1" --start "$2" --radius "$3" --out "$out/${1%.*}"
 }
-if ! $quick && [ -n "${CELLWALK_TEST_DATA:-}" ]; then
+if ! $learn && ! $quick && [ -n "${CELLWALK_TEST_DATA:-}" ]; then
   vessel carotids.stl cap_1 0.3
   vessel aorta_open_ends.stl cap_1 0.7
   vessel phantom.obj cap_1 0.25

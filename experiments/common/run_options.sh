@@ -28,7 +28,7 @@ if [ -z "$out" ]; then
   if $quick; then out=${out}_quick; fi
 fi
 if $make; then
-  [ -f "$build/CMakeCache.txt" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >/dev/null
+  [ -f "$build/build.ninja" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >/dev/null
   # shellcheck disable=SC2086
   cmake --build "$build" --target $targets
 fi
