@@ -53,35 +53,39 @@ std::vector<double> lengths_of_pieces(const Snapshot<3>& snapshot, const Point<3
 class Measured {
  public:
   Measured(const Point<3>& from, const Point<3>& to, const detail::Lane_planes& planes,
-           const std::vector<unsigned>& met, double error, const detail::Lane_functions& functions)
-      : length(met.size() + room) {
-    std::vector<double> kept(14 * room);
-    std::vector<unsigned> padded = met;
-    padded.resize(met.size() + room);
+           const std::vector<unsigned>& met, double error, const detail::Lane_functions& functions) {
+    const std::size_t stride = 3, room = met.size() + 2 + detail::lane_room;
+    std::vector<double> kept(14 * detail::lane_room), kept_places(4 * room), lengths(room);
+    std::vector<unsigned> strided(stride * (met.size() + detail::lane_room));
+    for (std::size_t i = 0; i < met.size(); ++i) strided[stride * i] = met[i];
     detail::Lane_segments segments{};
     double* next = kept.data();
+    const auto take = [&next](std::size_t size) { return std::exchange(next, next + size); };
     for (int k = 0; k < 3; ++k)
       for (double** array :
            {&segments.from[k], &segments.to[k], &segments.direction_high[k], &segments.direction_low[k]})
-        *array = std::exchange(next, next + room);
-    segments.length_high = std::exchange(next, next + room);
-    segments.length_low = next;
+        *array = take(detail::lane_room);
+    segments.length_high = take(detail::lane_room);
+    segments.length_low = take(detail::lane_room);
     segments.error = error;
     for (std::size_t k = 0; k < 3; ++k) {
       *segments.from[k] = from[k];
       *segments.to[k] = to[k];
     }
     functions.set_directions(segments, 1);
-    is_certain = functions.measure(segments, 0, {planes.planes.data(), padded.data(), met.size(), false},
-                                   length.data());
-    length.resize(met.size() + 1);
+    next = kept_places.data();
+    const detail::Lane_places places{take(room), take(room), take(room), take(room)};
+    unsigned long count = 0;
+    functions.place(segments, 0, {planes.planes.data(), strided.data(), stride, met.size(), false}, places,
+                    count);
+    EXPECT_EQ(count, met.size() + 2);
+    functions.measure(places, count, error, lengths.data());
+    length.assign(lengths.begin() + 1, lengths.begin() + static_cast<std::ptrdiff_t>(count));
+    is_certain = std::all_of(length.begin(), length.end(), [](double x) { return x > 0; });
   }
 
   std::vector<double> length;
   bool is_certain = false;
-
- private:
-  static constexpr std::size_t room = 16;
 };
 
 class TraceLanes : public testing::Test {
@@ -197,7 +201,7 @@ TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
       ASSERT_EQ(row.verdict == detail::Lane_verdict::blocked, result.contact.has_value()) << kind.name;
       ASSERT_EQ(row.cell, to_index(result.cell)) << kind.name;
       ASSERT_EQ(walks.count_of_met(row), crossed.size()) << kind.name;
-      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row, k), to_index(crossed[k]));
+      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row)[k * detail::lane_slots], to_index(crossed[k]));
       ++(result.contact ? blocked : arrived);
       from_vertices += particles[i].dimension == 0;
     }

@@ -74,9 +74,10 @@ class Block_walk {
   const Lane_row& row(std::size_t i) const { return rows_[i]; }
   /// The number of facets that a row met.
   static std::size_t count_of_met(const Lane_row& row) { return row.end - row.begin; }
-  /// The k-th of them.
-  unsigned met(const Lane_row& row, std::size_t k) const {
-    return kept_[lane_slots * (row.begin + k) + row.slot];
+  /// The half-facets that a row met: the first, and every lane_slots-th from there on. lane_room more may be
+  /// read.
+  const unsigned* met(const Lane_row& row) const {
+    return kept_.data() + lane_slots * std::size_t{row.begin} + row.slot;
   }
 
  private:
@@ -112,10 +113,10 @@ class Block_walk {
   }
 
   Lane_met grow() {
-    kept_.resize(std::max<std::size_t>(lane_slots * std::size_t{rows_of_block}, 2 * kept_.size()));
+    kept_.resize(std::max<std::size_t>(lane_slots * (rows_of_block + lane_room), 2 * kept_.size()));
     return room();
   }
-  Lane_met room() { return {kept_.data(), kept_.size() / lane_slots}; }
+  Lane_met room() { return {kept_.data(), kept_.size() / lane_slots - lane_room}; }
 
   void in_lanes(std::size_t count) {
     static_assert(sizeof(Plane_block<D>) == 4 * (D + 1) * sizeof(float));

@@ -35,19 +35,12 @@ struct Fused_lanes {
     columns[2] = Vector(_mm256_permute2f128_pd(ab_02, cd_02, 0x31));
     columns[3] = Vector(_mm256_permute2f128_pd(ab_13, cd_13, 0x31));
   }
-  static void load(const Lane_plane* planes, const unsigned* of_lane, Vector* high, Vector* low) {
-    const Lane_plane &a = planes[of_lane[0]], &b = planes[of_lane[1]], &c = planes[of_lane[2]],
-                     &d = planes[of_lane[3]];
+  static void load(const Lane_plane* planes, const unsigned* of_lane, unsigned long stride, Vector* high,
+                   Vector* low) {
+    const Lane_plane &a = planes[of_lane[0]], &b = planes[of_lane[stride]], &c = planes[of_lane[2 * stride]],
+                     &d = planes[of_lane[3 * stride]];
     transpose(a.high, b.high, c.high, d.high, high);
     transpose(a.low, b.low, c.low, d.low, low);
-  }
-  static Vector choose(Vector condition, Vector a, Vector b) {
-    return Vector(_mm256_blendv_pd(__m256d(b), __m256d(a), __m256d(condition)));
-  }
-  /// True in the lane of this number, if there is one.
-  static Vector is_number(unsigned long lane) {
-    const __m256i numbers = _mm256_set_epi64x(3, 2, 1, 0);
-    return Vector(_mm256_cmpeq_epi64(numbers, _mm256_set1_epi64x(static_cast<long long>(lane))));
   }
   /// The last lane of `before`, then the others of x.
   static Vector shift(Vector before, Vector x) {
@@ -56,13 +49,10 @@ struct Fused_lanes {
   }
   /// Stores lengths, known by a low part and an error, that are positive and rounded to nearest, and 0 for
   /// others.
-  /// \return true if the first `count` are
-  static bool store_certain(double* to, Vector length, Vector low, Vector error, unsigned long count) {
+  static void store_certain(double* to, Vector length, Vector low, Vector error) {
     const Vector above = length + (low + error), below = length + (low - error);
     const auto certain = (above == length) & (below == length) & (length > all(0));
     store(to, Vector(_mm256_and_pd(__m256d(certain), __m256d(length))));
-    const unsigned others = count < width ? 0xfu << count : 0;
-    return ((static_cast<unsigned>(_mm256_movemask_pd(__m256d(certain))) | others) & 0xfu) == 0xfu;
   }
 };
 
@@ -105,7 +95,7 @@ struct Fused_cells {
 
 }  // namespace
 
-const Lane_functions fused_lane_functions{&set_directions_in_lanes<Fused_lanes>,
+const Lane_functions fused_lane_functions{&set_directions_in_lanes<Fused_lanes>, &place_in_lanes<Fused_lanes>,
                                           &measure_in_lanes<Fused_lanes>, &walk_in_lanes<Fused_cells, 2>,
                                           &walk_in_lanes<Fused_cells, 3>};
 

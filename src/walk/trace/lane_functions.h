@@ -11,8 +11,9 @@ namespace cellwalk::detail {
 
 struct Lane_functions {
   void (*set_directions)(const Lane_segments& segments, unsigned long count);
-  bool (*measure)(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
-                  double* lengths);
+  void (*place)(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
+                const Lane_places& places, unsigned long& at);
+  void (*measure)(const Lane_places& places, unsigned long count, double error, double* lengths);
   Lane_walk walk_2, walk_3;  ///< in 2D and 3D, if any
 };
 

@@ -45,9 +45,15 @@ inline constexpr unsigned long lane_room = 8;
 /// The facets that a segment meets, in order.
 struct Lane_crossings {
   const Lane_plane* planes;    ///< of all half-facets
-  const unsigned* half_facet;  ///< those met, and lane_room others
-  unsigned long count;
+  const unsigned* half_facet;  ///< every stride-th is one that is met; lane_room others follow
+  unsigned long stride, count;
   bool end_on_last;  ///< the last of them ends the segment
+};
+
+/// Where pieces begin and end, as quotients height / slope: those of one segment after the other, from its
+/// start, which is at 0, to its end. Arrays with room for lane_room more.
+struct Lane_places {
+  double *height_high, *height_low, *slope_high, *slope_low;
 };
 
 namespace {
@@ -97,96 +103,83 @@ inline void set_directions_in_lanes(const Lane_segments& segments, unsigned long
   }
 }
 
-/// A position on a segment, and the bound of its error.
-template <class V>
-struct Lane_position {
-  V high, low, error;
-};
-
-/// The segment on which facets are met.
+/// Appends the places of a segment at the index `at`, which is raised to the end.
 template <class Lanes>
-class Lane_line {
- public:
+inline void place_in_lanes(const Lane_segments& segments, unsigned long segment,
+                           const Lane_crossings& crossings, const Lane_places& places, unsigned long& at) {
   using V = typename Lanes::Vector;
-
-  Lane_line(const Lane_segments& segments, unsigned long segment) : unit_(Lanes::all(segments.error)) {
-    for (int k = 0; k < 3; ++k) {
-      from_[k] = Lanes::all(segments.from[k][segment]);
-      e_[k] = Lanes::all(segments.direction_high[k][segment]);
-      e_low_[k] = Lanes::all(segments.direction_low[k][segment]);
-    }
+  const auto put = [&](double height, double low) {
+    places.height_high[at] = height;
+    places.height_low[at] = low;
+    places.slope_high[at] = 1;
+    places.slope_low[at] = 0;
+    ++at;
+  };
+  put(0, 0);
+  V from[3], e[3], e_low[3];
+  for (int k = 0; k < 3; ++k) {
+    from[k] = Lanes::all(segments.from[k][segment]);
+    e[k] = Lanes::all(segments.direction_high[k][segment]);
+    e_low[k] = Lanes::all(segments.direction_low[k][segment]);
   }
-
-  /// Where it meets planes.
-  Lane_position<V> meet(const Lane_plane* planes, const unsigned* of_lane) const {
+  for (unsigned long i = 0; i < crossings.count; i += Lanes::width) {
     V n[4], n_low[4];
-    Lanes::load(planes, of_lane, n, n_low);
-
-    V slope_low = Lanes::all(0), height_low = n_low[3], along[3], at[3];
+    Lanes::load(crossings.planes, crossings.half_facet + i * crossings.stride, crossings.stride, n, n_low);
+    V slope_low = Lanes::all(0), height_low = n_low[3], along[3], across[3];
     for (int k = 0; k < 3; ++k) {
-      along[k] = n[k] * e_[k];
-      at[k] = n[k] * from_[k];
+      along[k] = n[k] * e[k];
+      across[k] = n[k] * from[k];
       slope_low = Lanes::multiply_add(
-          n[k], e_low_[k],
-          Lanes::multiply_add(n_low[k], e_[k], slope_low + Lanes::product_error(n[k], e_[k], along[k])));
+          n[k], e_low[k],
+          Lanes::multiply_add(n_low[k], e[k], slope_low + Lanes::product_error(n[k], e[k], along[k])));
       height_low =
-          Lanes::multiply_add(-n_low[k], from_[k], height_low - Lanes::product_error(n[k], from_[k], at[k]));
+          Lanes::multiply_add(-n_low[k], from[k], height_low - Lanes::product_error(n[k], from[k], across[k]));
     }
     V sum, slope, height;
     slope_low = slope_low + sum_with_error(along[0], along[1], sum);
     slope_low = slope_low + sum_with_error(sum, along[2], slope);
     // Along a facet the terms nearly cancel, and the low part may be large beside their sum.
     const V whole_slope = slope + slope_low;
-    slope_low = slope_low - (whole_slope - slope);
-    slope = whole_slope;
-    height_low = height_low + sum_with_error(n[3], -at[0], sum);
-    height_low = height_low + sum_with_error(sum, -at[1], height);
-    height_low = height_low + sum_with_error(height, -at[2], sum);
-    height = sum;
+    Lanes::store(places.slope_high + at + i, whole_slope);
+    Lanes::store(places.slope_low + at + i, slope_low - (whole_slope - slope));
+    height_low = height_low + sum_with_error(n[3], -across[0], sum);
+    height_low = height_low + sum_with_error(sum, -across[1], height);
+    height_low = height_low + sum_with_error(height, -across[2], sum);
+    Lanes::store(places.height_high + at + i, sum);
+    Lanes::store(places.height_low + at + i, height_low);
+  }
+  at += crossings.count;
+  if (!crossings.end_on_last) put(segments.length_high[segment], segments.length_low[segment]);
+}
 
+/// Computes the length of the piece between each of `count` places and the one before: the double nearest to
+/// the exact length, or 0 where that is not certain. The first of a segment has none: its length is any.
+/// \param error that of Lane_segments
+template <class Lanes>
+inline void measure_in_lanes(const Lane_places& places, unsigned long count, double error, double* lengths) {
+  using V = typename Lanes::Vector;
+  const V unit = Lanes::all(error);
+  V before = Lanes::all(0), before_low = before, before_error = before;
+  for (unsigned long i = 0; i < count; i += Lanes::width) {
+    const V slope = Lanes::load(places.slope_high + i), height = Lanes::load(places.height_high + i);
     const V inverse = Lanes::all(1) / slope;
     const V quotient = height * inverse, product = quotient * slope;
-    const V rest = ((height - product) - Lanes::product_error(quotient, slope, product)) +
-                   (height_low - quotient * slope_low);
+    const V rest =
+        ((height - product) - Lanes::product_error(quotient, slope, product)) +
+        (Lanes::load(places.height_low + i) - quotient * Lanes::load(places.slope_low + i));
     const V correction = rest * inverse;
-    const V position = quotient + correction;
-    return {position, correction - (position - quotient), unit_ * Lanes::magnitude(inverse)};
-  }
-
- private:
-  V from_[3], e_[3], e_low_[3];
-  const V unit_;
-};
-
-/// Computes the lengths of the pieces of a segment, with room for lane_room more: the double nearest to the
-/// exact length, or 0 where that is not certain.
-/// \return true if it is certain of all
-template <class Lanes>
-inline bool measure_in_lanes(const Lane_segments& segments, unsigned long segment,
-                             const Lane_crossings& crossings, double* lengths) {
-  using V = typename Lanes::Vector;
-  const unsigned long count = crossings.count, pieces = crossings.end_on_last ? count : count + 1;
-  const Lane_line<Lanes> line(segments, segment);
-  const Lane_position<V> last{Lanes::all(segments.length_high[segment]),
-                              Lanes::all(segments.length_low[segment]), Lanes::all(segments.error)};
-  Lane_position<V> before{Lanes::all(0), Lanes::all(0), Lanes::all(0)};
-  bool are_certain = true;
-  for (unsigned long i = 0; i < pieces; i += Lanes::width) {
-    Lane_position<V> end = line.meet(crossings.planes, crossings.half_facet + i);
-    const auto is_last = Lanes::is_number(count - i);
-    end = {Lanes::choose(is_last, last.high, end.high), Lanes::choose(is_last, last.low, end.low),
-           Lanes::choose(is_last, last.error, end.error)};
-    const Lane_position<V> begin{Lanes::shift(before.high, end.high), Lanes::shift(before.low, end.low),
-                                 Lanes::shift(before.error, end.error)};
-    before = end;
+    const V end = quotient + correction, end_low = correction - (end - quotient),
+            end_error = unit * Lanes::magnitude(inverse);
     V difference;
-    V low = sum_with_error(end.high, -begin.high, difference);
-    low = low + (end.low - begin.low);
+    V low = sum_with_error(end, -Lanes::shift(before, end), difference);
+    low = low + (end_low - Lanes::shift(before_low, end_low));
     const V length = difference + low;
     low = low - (length - difference);
-    are_certain &= Lanes::store_certain(lengths + i, length, low, begin.error + end.error, pieces - i);
+    Lanes::store_certain(lengths + i, length, low, Lanes::shift(before_error, end_error) + end_error);
+    before = end;
+    before_low = end_low;
+    before_error = end_error;
   }
-  return are_certain;
 }
 
 }  // namespace

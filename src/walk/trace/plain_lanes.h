@@ -22,24 +22,21 @@ struct Plain_lanes {
   static double multiply_add(double a, double b, double c) { return a * b + c; }
   static double square_root(double x) { return std::sqrt(x); }
   static double magnitude(double x) { return std::abs(x); }
-  static void load(const Lane_plane* planes, const unsigned* of_lane, double* high, double* low) {
+  static void load(const Lane_plane* planes, const unsigned* of_lane, unsigned long, double* high, double* low) {
     for (int k = 0; k < 4; ++k) {
       high[k] = planes[*of_lane].high[k];
       low[k] = planes[*of_lane].low[k];
     }
   }
-  static bool is_number(unsigned long lane) { return lane == 0; }
-  static double choose(bool condition, double a, double b) { return condition ? a : b; }
   static double shift(double before, double) { return before; }
-  static bool store_certain(double* to, double length, double low, double error, unsigned long) {
+  static void store_certain(double* to, double length, double low, double error) {
     const bool is_certain =
         length + (low + error) == length && length + (low - error) == length && length > 0;
     *to = is_certain ? length : 0;
-    return is_certain;
   }
 };
 
-inline constexpr Lane_functions plain_lane_functions{&set_directions_in_lanes<Plain_lanes>,
+inline constexpr Lane_functions plain_lane_functions{&set_directions_in_lanes<Plain_lanes>, &place_in_lanes<Plain_lanes>,
                                                      &measure_in_lanes<Plain_lanes>, nullptr, nullptr};
 
 }  // namespace cellwalk::detail

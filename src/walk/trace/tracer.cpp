@@ -80,6 +80,48 @@ class Block_segments {
   Lane_segments lanes_{};
 };
 
+/// The lengths of the pieces of some rows, which are computed together.
+class Row_lengths {
+ public:
+  Row_lengths(const Lane_functions& functions, const Lane_segments& segments)
+      : functions_(functions), segments_(segments) {}
+
+  void clear() { count_ = 0; }
+  /// \param segment that of the row
+  /// \return where its lengths are after measure()
+  std::size_t add(std::size_t segment, const Lane_crossings& crossings) {
+    const std::size_t at = count_ + 1;
+    reserve(at + crossings.count + 1);
+    functions_.place(segments_, segment, crossings, places_, count_);
+    return at;
+  }
+  void measure() { functions_.measure(places_, count_, segments_.error, lengths_); }
+  /// Those that are not certain are 0.
+  const double* at(std::size_t i) const { return lengths_ + i; }
+
+ private:
+  void reserve(std::size_t count) {
+    if (count + lane_room <= stride_) return;
+    const std::size_t stride = 2 * count + lane_room;
+    std::vector<double> kept(5 * stride);
+    double* next = kept.data();
+    for (double** array : {&places_.height_high, &places_.height_low, &places_.slope_high, &places_.slope_low,
+                           &lengths_}) {
+      std::copy_n(*array, count_, next);
+      *array = std::exchange(next, next + stride);
+    }
+    kept_ = std::move(kept);
+    stride_ = stride;
+  }
+
+  const Lane_functions& functions_;
+  const Lane_segments& segments_;
+  std::vector<double> kept_;
+  std::size_t stride_ = 0, count_ = 0;
+  Lane_places places_{};
+  double* lengths_ = nullptr;
+};
+
 }  // namespace
 }  // namespace detail
 
@@ -106,6 +148,8 @@ class Trace_call {
         counts_(counts),
         walks_(snapshot, planes, functions),
         segments_(detail::lane_error * planes.size),
+        together_(functions, segments_.lanes()),
+        alone_(functions, segments_.lanes()),
         pieces_(traces.cells.size()),
         crossings_(traces.crossings.size()) {}
 
@@ -120,7 +164,10 @@ class Trace_call {
       expected_ = 0;
       for (std::size_t i = 0; i < count; ++i) expected_ += pieces_at_most(i);
       make_room(0);
-      for (std::size_t i = 0; i < count; ++i) append(i, targets[begin + i], moved[begin + i]);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (i % rows_together == 0) measure_together(i, std::min(i + rows_together, count));
+        append(i, targets[begin + i], moved[begin + i]);
+      }
     }
     traces_.cells.resize(pieces_);
     traces_.lengths.resize(pieces_);
@@ -129,6 +176,9 @@ class Trace_call {
   }
 
  private:
+  /// So many that their lengths stay in the cache until they are appended.
+  static constexpr std::size_t rows_together = 32;
+
   std::size_t pieces_at_most(std::size_t i) const { return walks_.count_of_met(walks_.row(i)) + 1; }
 
   /// Makes room for so many pieces and crossings, and those expected of the rest of the block.
@@ -155,30 +205,51 @@ class Trace_call {
     expected_ -= pieces_at_most(i);
   }
 
+  /// Measures rows of the block whose walks are decided.
+  void measure_together(std::size_t first, std::size_t end) {
+    together_.clear();
+    for (std::size_t i = first; i < end; ++i) {
+      const detail::Lane_row& row = walks_.row(i);
+      if (row.verdict == detail::Lane_verdict::undecided) continue;
+      at_[i % rows_together] =
+          together_.add(i, {planes_.planes.data(), walks_.met(row), detail::lane_slots,
+                            walks_.count_of_met(row), row.verdict == detail::Lane_verdict::blocked});
+    }
+    together_.measure();
+  }
+
+  /// \pre its walk is decided and measured
+  /// \return false if not all lengths are certain
   bool append_certified(std::size_t i, const Point<D>& target, Particle<D>& particle, Trace_end& end) {
     const detail::Lane_row& row = walks_.row(i);
     const bool is_blocked = row.verdict == detail::Lane_verdict::blocked;
     const std::size_t met = walks_.count_of_met(row), passed = is_blocked ? met - 1 : met,
                       pieces = passed + 1;
-    set_room_of_met(met);
-    const std::uint32_t* const links = snapshot_.links(Cell{0});  // of passable facets: the cells beyond
+    const double* const measured = together_.at(at_[i % rows_together]);
+    double* const lengths = traces_.lengths.data() + pieces_;
+    bool are_certain = true;
+    for (std::size_t k = 0; k < pieces; ++k) {
+      lengths[k] = measured[k];
+      are_certain &= measured[k] > 0;
+    }
+    if (!are_certain) return false;
+    const unsigned* const facets = walks_.met(row);
+    const bool is_by_four = snapshot_.uniform_blocks() == 1;  // cells have four half-facets each
     Cell* const cells = traces_.cells.data() + pieces_;
     Half_facet* const crossings = traces_.crossings.data() + crossings_;
-    cells[0] = particle.cell;
     for (std::size_t k = 0; k < passed; ++k) {
-      const unsigned f = met_[k] = walks_.met(row, k);
-      cells[k + 1] = Cell{links[f]};
-      crossings[k] = Half_facet{f};
+      const Half_facet f{facets[detail::lane_slots * k]};
+      cells[k] = is_by_four ? Cell{to_index(f) / 4} : snapshot_.cell_of(f);
+      crossings[k] = f;
     }
-    if (is_blocked) met_[passed] = walks_.met(row, passed);
-    if (!measure(i, met, pieces)) return false;
+    cells[passed] = Cell{row.cell};
     pieces_ += pieces;
     crossings_ += passed;
     ++counts_.walks;
     counts_.stays += passed == 0 && !is_blocked;
     counts_.crossings += passed;
     end = {is_blocked ? Walk_status::contact : Walk_status::arrived, Cell{row.cell},
-           is_blocked ? Half_facet{met_[passed]} : Half_facet::none};
+           is_blocked ? Half_facet{facets[detail::lane_slots * passed]} : Half_facet::none};
     if (!is_blocked) particle = {target, end.cell, D, passed == 0 ? particle.aimed : std::uint16_t{0}};
     return true;
   }
@@ -199,12 +270,11 @@ class Trace_call {
     std::copy(crossed_.begin(), crossed_.end(), traces_.crossings.data() + crossings_);
     crossings_ += crossed_.size();
     if (from == target) return;
-    set_room_of_met(exits_.size());
+    met_.resize(std::max(met_.size(), exits_.size() + detail::lane_room));
     for (std::size_t k = 0; k < exits_.size(); ++k) met_[k] = facet_at(visited_[k], exits_[k], from, target);
     Float_point<D> y;
     const bool are_bounded = snapshot_.frame().map(from, y);  // as lengths by planes require
-    measure(i, exits_.size(), visited_.size());
-    const double* const measured = traces_.lengths.data() + pieces_;
+    const double* const measured = lengths_alone(i, exits_.size(), visited_.size());
     for (std::size_t k = 0; k < visited_.size(); ++k) {
       const bool is_certain = measured[k] > 0 && are_bounded;
       if (!is_certain && k == 0 && is_at_exit(from)) continue;
@@ -216,16 +286,13 @@ class Trace_call {
     }
   }
 
-  void set_room_of_met(std::size_t count) {
-    if (met_.size() < count + detail::lane_room) met_.resize(2 * count + detail::lane_room);
-  }
-
-  /// The lengths of the pieces of row i of the block where they are to be appended, if it meets the planes of
-  /// the first facets of met_ one after the other: 0 for those that are not certain.
-  /// \return true if all are
-  bool measure(std::size_t i, std::size_t met, std::size_t pieces) {
-    return functions_.measure(segments_.lanes(), i, {planes_.planes.data(), met_.data(), met, met == pieces},
-                              traces_.lengths.data() + pieces_);
+  /// The lengths of the pieces of row i of the block, if it meets the planes of the first facets of met_ one
+  /// after the other: 0 for those that are not certain.
+  const double* lengths_alone(std::size_t i, std::size_t met, std::size_t pieces) {
+    alone_.clear();
+    const std::size_t at = alone_.add(i, {planes_.planes.data(), met_.data(), 1, met, met == pieces});
+    alone_.measure();
+    return alone_.at(at);
   }
 
   /// A facet whose plane the motion meets where it leaves a cell, and nowhere else: at a ridge or vertex, of
@@ -267,6 +334,8 @@ class Trace_call {
   Walk_counts& counts_;
   detail::Block_walk<D> walks_;
   detail::Block_segments segments_;
+  detail::Row_lengths together_, alone_;           ///< of rows that planes decide, and of one of the others
+  std::array<std::size_t, rows_together> at_;      ///< in the former
   std::size_t pieces_, crossings_;  ///< appended
   std::size_t expected_ = 0;        ///< pieces of the rows of the block that are not yet appended
   std::vector<unsigned> met_;

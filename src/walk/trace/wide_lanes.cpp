@@ -29,11 +29,12 @@ struct Wide_lanes {
   static Vector square_root(Vector x) { return Vector(_mm512_sqrt_pd(__m512d(x))); }
   static Vector magnitude(Vector x) { return Vector(_mm512_abs_pd(__m512d(x))); }
   /// Each plane is a row of eight: its high parts, then its low parts.
-  static void load(const Lane_plane* planes, const unsigned* of_lane, Vector* high, Vector* low) {
+  static void load(const Lane_plane* planes, const unsigned* of_lane, unsigned long stride, Vector* high,
+                   Vector* low) {
     __m512d pairs[8], fours[8];
-    for (int i = 0; i < 8; i += 2) {
-      const __m512d even = _mm512_load_pd(planes[of_lane[i]].high),
-                    odd = _mm512_load_pd(planes[of_lane[i + 1]].high);
+    for (unsigned long i = 0; i < 8; i += 2) {
+      const __m512d even = _mm512_load_pd(planes[of_lane[i * stride]].high),
+                    odd = _mm512_load_pd(planes[of_lane[(i + 1) * stride]].high);
       pairs[i] = _mm512_unpacklo_pd(even, odd);
       pairs[i + 1] = _mm512_unpackhi_pd(even, odd);
     }
@@ -49,11 +50,6 @@ struct Wide_lanes {
       low[k] = Vector(second);
     }
   }
-  static Vector choose(unsigned condition, Vector a, Vector b) {
-    return Vector(_mm512_mask_blend_pd(static_cast<__mmask8>(condition), __m512d(b), __m512d(a)));
-  }
-  /// The lane of this number, if there is one.
-  static unsigned is_number(unsigned long lane) { return lane < width ? 1u << lane : 0; }
   /// The last lane of `before`, then the others of x.
   static Vector shift(Vector before, Vector x) {
     return Vector(_mm512_castsi512_pd(
@@ -61,15 +57,12 @@ struct Wide_lanes {
   }
   /// Stores lengths, known by a low part and an error, that are positive and rounded to nearest, and 0 for
   /// others.
-  /// \return true if the first `count` are
-  static bool store_certain(double* to, Vector length, Vector low, Vector error, unsigned long count) {
+  static void store_certain(double* to, Vector length, Vector low, Vector error) {
     const __m512d above = __m512d(length + (low + error)), below = __m512d(length + (low - error));
     const unsigned certain = _mm512_cmp_pd_mask(above, __m512d(length), _CMP_EQ_OQ) &
                              _mm512_cmp_pd_mask(below, __m512d(length), _CMP_EQ_OQ) &
                              _mm512_cmp_pd_mask(__m512d(length), _mm512_setzero_pd(), _CMP_GT_OQ);
     _mm512_storeu_pd(to, _mm512_maskz_mov_pd(static_cast<__mmask8>(certain), __m512d(length)));
-    const unsigned others = count < width ? 0xffu << count : 0;
-    return ((certain | others) & 0xffu) == 0xffu;
   }
 };
 
@@ -113,7 +106,8 @@ struct Wide_cells {
 
 }  // namespace
 
-const Lane_functions wide_lane_functions{&set_directions_in_lanes<Wide_lanes>, &measure_in_lanes<Wide_lanes>,
-                                         &walk_in_lanes<Wide_cells, 2>, &walk_in_lanes<Wide_cells, 3>};
+const Lane_functions wide_lane_functions{&set_directions_in_lanes<Wide_lanes>, &place_in_lanes<Wide_lanes>,
+                                         &measure_in_lanes<Wide_lanes>, &walk_in_lanes<Wide_cells, 2>,
+                                         &walk_in_lanes<Wide_cells, 3>};
 
 }  // namespace cellwalk::detail
