@@ -54,7 +54,7 @@ class Measured {
  public:
   Measured(const Point<3>& from, const Point<3>& to, const detail::Lane_planes& planes,
            const std::vector<unsigned>& met, double error, const detail::Lane_functions& functions) {
-    const std::size_t stride = 3, room = met.size() + 2 + detail::lane_room;
+    const std::size_t stride = 3, room = met.size() + 3 + detail::lane_room;
     std::vector<double> kept(14 * detail::lane_room), kept_places(4 * room), lengths(room);
     std::vector<unsigned> strided(stride * (met.size() + detail::lane_room));
     for (std::size_t i = 0; i < met.size(); ++i) strided[stride * i] = met[i];
@@ -78,10 +78,11 @@ class Measured {
     unsigned long count = 0;
     functions.place(segments, 0, {planes.planes.data(), strided.data(), stride, met.size(), false}, places,
                     count);
-    EXPECT_EQ(count, met.size() + 2);
-    functions.measure(places, count, error, lengths.data());
-    length.assign(lengths.begin() + 1, lengths.begin() + static_cast<std::ptrdiff_t>(count));
-    is_certain = std::all_of(length.begin(), length.end(), [](double x) { return x > 0; });
+    EXPECT_EQ(count, met.size() + 3);
+    const unsigned long certain = functions.measure(places, count, error, lengths.data());
+    length.assign(lengths.begin() + 2, lengths.begin() + static_cast<std::ptrdiff_t>(count));
+    EXPECT_EQ(certain, std::count_if(length.begin(), length.end(), [](double x) { return x > 0; }));
+    is_certain = certain == length.size();
   }
 
   std::vector<double> length;
@@ -201,7 +202,8 @@ TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
       ASSERT_EQ(row.verdict == detail::Lane_verdict::blocked, result.contact.has_value()) << kind.name;
       ASSERT_EQ(row.cell, to_index(result.cell)) << kind.name;
       ASSERT_EQ(walks.count_of_met(row), crossed.size()) << kind.name;
-      for (std::size_t k = 0; k < crossed.size(); ++k) ASSERT_EQ(walks.met(row)[k * detail::lane_slots], to_index(crossed[k]));
+      for (std::size_t k = 0; k < crossed.size(); ++k)
+        ASSERT_EQ(walks.met(row)[k * detail::lane_slots], to_index(crossed[k]));
       ++(result.contact ? blocked : arrived);
       from_vertices += particles[i].dimension == 0;
     }

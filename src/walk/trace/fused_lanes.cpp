@@ -49,10 +49,13 @@ struct Fused_lanes {
   }
   /// Stores lengths, known by a low part and an error, that are positive and rounded to nearest, and 0 for
   /// others.
-  static void store_certain(double* to, Vector length, Vector low, Vector error) {
+  /// \return how many of the first `count` are
+  static unsigned store_certain(double* to, Vector length, Vector low, Vector error, unsigned long count) {
     const Vector above = length + (low + error), below = length + (low - error);
     const auto certain = (above == length) & (below == length) & (length > all(0));
     store(to, Vector(_mm256_and_pd(__m256d(certain), __m256d(length))));
+    const unsigned bits = static_cast<unsigned>(_mm256_movemask_pd(__m256d(certain)));
+    return static_cast<unsigned>(__builtin_popcount(count < width ? bits & ((1u << count) - 1) : bits));
   }
 };
 
@@ -83,6 +86,9 @@ struct Fused_cells {
   static Floats least_of_four(Floats x) {
     const __m256 half = _mm256_min_ps(__m256(x), _mm256_permute_ps(__m256(x), _MM_SHUFFLE(2, 3, 0, 1)));
     return Floats(_mm256_min_ps(half, _mm256_permute_ps(half, _MM_SHUFFLE(1, 0, 3, 2))));
+  }
+  static void set_cell(Bits& lanes, unsigned cell, bool to) {
+    for (unsigned i = 0; i < 4; ++i) lanes[4 * cell + i] = to ? -1 : 0;
   }
   static unsigned mask(Bits lanes) { return static_cast<unsigned>(_mm256_movemask_ps(__m256(lanes))); }
   /// The bits by which Exit_lanes has exits, of all cells.

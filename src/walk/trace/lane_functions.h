@@ -13,7 +13,7 @@ struct Lane_functions {
   void (*set_directions)(const Lane_segments& segments, unsigned long count);
   void (*place)(const Lane_segments& segments, unsigned long segment, const Lane_crossings& crossings,
                 const Lane_places& places, unsigned long& at);
-  void (*measure)(const Lane_places& places, unsigned long count, double error, double* lengths);
+  unsigned long (*measure)(const Lane_places& places, unsigned long count, double error, double* lengths);
   Lane_walk walk_2, walk_3;  ///< in 2D and 3D, if any
 };
 

@@ -50,8 +50,9 @@ struct Lane_crossings {
   bool end_on_last;  ///< the last of them ends the segment
 };
 
-/// Where pieces begin and end, as quotients height / slope: those of one segment after the other, from its
-/// start, which is at 0, to its end. Arrays with room for lane_room more.
+/// Where pieces begin and end, as quotients height / slope: those of one segment after the other, each a place
+/// that is no number, its start, which is at 0, and the places of facets to its end. Arrays with room for
+/// lane_room more.
 struct Lane_places {
   double *height_high, *height_low, *slope_high, *slope_low;
 };
@@ -115,6 +116,7 @@ inline void place_in_lanes(const Lane_segments& segments, unsigned long segment,
     places.slope_low[at] = 0;
     ++at;
   };
+  put(__builtin_nan(""), 0);
   put(0, 0);
   V from[3], e[3], e_low[3];
   for (int k = 0; k < 3; ++k) {
@@ -122,51 +124,58 @@ inline void place_in_lanes(const Lane_segments& segments, unsigned long segment,
     e[k] = Lanes::all(segments.direction_high[k][segment]);
     e_low[k] = Lanes::all(segments.direction_low[k][segment]);
   }
-  for (unsigned long i = 0; i < crossings.count; i += Lanes::width) {
+  double *const height_high = places.height_high + at, *const height_low = places.height_low + at,
+                *const slope_high = places.slope_high + at, *const slope_low = places.slope_low + at;
+  const unsigned long count = crossings.count, stride = crossings.stride;
+  const unsigned* const half_facet = crossings.half_facet;
+  const Lane_plane* const planes = crossings.planes;
+  for (unsigned long i = 0; i < count; i += Lanes::width) {
     V n[4], n_low[4];
-    Lanes::load(crossings.planes, crossings.half_facet + i * crossings.stride, crossings.stride, n, n_low);
-    V slope_low = Lanes::all(0), height_low = n_low[3], along[3], across[3];
+    Lanes::load(planes, half_facet + i * stride, stride, n, n_low);
+    V along[3], along_low[3], across[3], across_low[3];
     for (int k = 0; k < 3; ++k) {
       along[k] = n[k] * e[k];
       across[k] = n[k] * from[k];
-      slope_low = Lanes::multiply_add(
-          n[k], e_low[k],
-          Lanes::multiply_add(n_low[k], e[k], slope_low + Lanes::product_error(n[k], e[k], along[k])));
-      height_low =
-          Lanes::multiply_add(-n_low[k], from[k], height_low - Lanes::product_error(n[k], from[k], across[k]));
+      along_low[k] = Lanes::multiply_add(
+          n[k], e_low[k], Lanes::multiply_add(n_low[k], e[k], Lanes::product_error(n[k], e[k], along[k])));
+      across_low[k] = Lanes::multiply_add(n_low[k], from[k], Lanes::product_error(n[k], from[k], across[k]));
     }
     V sum, slope, height;
-    slope_low = slope_low + sum_with_error(along[0], along[1], sum);
-    slope_low = slope_low + sum_with_error(sum, along[2], slope);
+    V low = (along_low[0] + along_low[1]) + along_low[2];
+    low = low + sum_with_error(along[0], along[1], sum);
+    low = low + sum_with_error(sum, along[2], slope);
     // Along a facet the terms nearly cancel, and the low part may be large beside their sum.
-    const V whole_slope = slope + slope_low;
-    Lanes::store(places.slope_high + at + i, whole_slope);
-    Lanes::store(places.slope_low + at + i, slope_low - (whole_slope - slope));
-    height_low = height_low + sum_with_error(n[3], -across[0], sum);
-    height_low = height_low + sum_with_error(sum, -across[1], height);
-    height_low = height_low + sum_with_error(height, -across[2], sum);
-    Lanes::store(places.height_high + at + i, sum);
-    Lanes::store(places.height_low + at + i, height_low);
+    const V whole_slope = slope + low;
+    Lanes::store(slope_high + i, whole_slope);
+    Lanes::store(slope_low + i, low - (whole_slope - slope));
+    low = (n_low[3] - across_low[0]) - (across_low[1] + across_low[2]);
+    low = low + sum_with_error(n[3], -across[0], sum);
+    low = low + sum_with_error(sum, -across[1], height);
+    low = low + sum_with_error(height, -across[2], sum);
+    Lanes::store(height_high + i, sum);
+    Lanes::store(height_low + i, low);
   }
   at += crossings.count;
   if (!crossings.end_on_last) put(segments.length_high[segment], segments.length_low[segment]);
 }
 
 /// Computes the length of the piece between each of `count` places and the one before: the double nearest to
-/// the exact length, or 0 where that is not certain. The first of a segment has none: its length is any.
+/// the exact length, or 0 where that is not certain.
 /// \param error that of Lane_segments
+/// \return how many are certain: of each segment all but two if the lengths of its pieces are
 template <class Lanes>
-inline void measure_in_lanes(const Lane_places& places, unsigned long count, double error, double* lengths) {
+inline unsigned long measure_in_lanes(const Lane_places& places, unsigned long count, double error,
+                                      double* lengths) {
   using V = typename Lanes::Vector;
+  unsigned long certain = 0;
   const V unit = Lanes::all(error);
   V before = Lanes::all(0), before_low = before, before_error = before;
   for (unsigned long i = 0; i < count; i += Lanes::width) {
     const V slope = Lanes::load(places.slope_high + i), height = Lanes::load(places.height_high + i);
     const V inverse = Lanes::all(1) / slope;
     const V quotient = height * inverse, product = quotient * slope;
-    const V rest =
-        ((height - product) - Lanes::product_error(quotient, slope, product)) +
-        (Lanes::load(places.height_low + i) - quotient * Lanes::load(places.slope_low + i));
+    const V rest = ((height - product) - Lanes::product_error(quotient, slope, product)) +
+                   (Lanes::load(places.height_low + i) - quotient * Lanes::load(places.slope_low + i));
     const V correction = rest * inverse;
     const V end = quotient + correction, end_low = correction - (end - quotient),
             end_error = unit * Lanes::magnitude(inverse);
@@ -175,11 +184,13 @@ inline void measure_in_lanes(const Lane_places& places, unsigned long count, dou
     low = low + (end_low - Lanes::shift(before_low, end_low));
     const V length = difference + low;
     low = low - (length - difference);
-    Lanes::store_certain(lengths + i, length, low, Lanes::shift(before_error, end_error) + end_error);
+    certain += Lanes::store_certain(lengths + i, length, low,
+                                    Lanes::shift(before_error, end_error) + end_error, count - i);
     before = end;
     before_low = end_low;
     before_error = end_error;
   }
+  return certain;
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ class Walks_in_lanes {
     for (unsigned step = 0; active_ != 0; ++step) {
       if (step == met_.steps) make_room(step);
       unsigned* const met = met_.half_facet + lane_slots * static_cast<unsigned long>(step);
+#pragma GCC unroll 4
       for (unsigned slot = 0; slot < lane_slots; slot += Lanes::cells) {
         const float* block[Lanes::cells];
         for (unsigned i = 0; i < Lanes::cells; ++i)
@@ -114,14 +115,15 @@ class Walks_in_lanes {
         const V time = -a * inverse, width = Lanes::multiply_add(error, inverse, slack);
         const V upper = Lanes::choose(outside, time + width, never);
         const auto first = Lanes::is_at_most(time - width, Lanes::least_of_four(upper)) & outside;
-        const auto exits = Lanes::exits(first, Lanes::is_above(-error, b) | outside);
+        const auto decided = Lanes::is_above(-error, b) | outside;
+        const unsigned exits = Lanes::exits(first, decided & are_certain_[slot / Lanes::cells]);
         for (unsigned i = 0; i < Lanes::cells; ++i) {
           const unsigned s = slot + i;
           const unsigned lane = exit_lanes.lane[Lanes::exit(exits, i)];
-          if (lane != Exit_lanes::none && is_certain_[s]) [[likely]] {
+          if (lane != Exit_lanes::none) [[likely]] {
             const unsigned f = 4 * cell_[s] + lane, link = links[f];
             met[s] = f;
-            __builtin_prefetch(ahead[f]);
+            __builtin_prefetch(ahead[f], 0, 2);  // for later, so not into the nearest cache
             if (static_cast<int>(link) >= 0) [[likely]] {
               cell_[s] = link;
               __builtin_prefetch(blocks + 4 * (D + 1) * static_cast<unsigned long>(link));
@@ -129,10 +131,11 @@ class Walks_in_lanes {
               continue;
             }
             end(s, Lane_verdict::blocked, step + 1, step + 1);
-          } else {
-            const bool is_inside = (Lanes::mask(Lanes::is_above(-error, a)) >> (4 * i + lane) & 1) != 0;
-            const bool arrives = Lanes::exit(exits, i) == 0xf0 && (Lanes::mask(outside) >> 4 * i & 0xf) == 0;
-            if (motion_[s]) leave_or_end(s, lane, is_inside, arrives, step);
+          } else if (motion_[s]) {
+            const unsigned exit = Lanes::exit(Lanes::exits(first, decided), i);
+            const bool arrives = exit == 0xf0 && (Lanes::mask(outside) >> 4 * i & 0xf) == 0;
+            const unsigned of_start = are_certain(s) ? 0xf : Lanes::mask(Lanes::is_above(-error, a)) >> 4 * i;
+            leave_or_end(s, exit_lanes.lane[exit], of_start, arrives, step);
           }
         }
       }
@@ -144,12 +147,16 @@ class Walks_in_lanes {
     float from[D][4 * Lanes::cells], to[D][4 * Lanes::cells];
   };
 
+  bool are_certain(unsigned slot) const {
+    return (Lanes::mask(are_certain_[slot / Lanes::cells]) >> 4 * (slot % Lanes::cells) & 1) != 0;
+  }
+
   /// \param step the first of the walk
   void start(unsigned slot, unsigned step) {
     Lines& lines = lines_[slot / Lanes::cells];
     const unsigned first = 4 * (slot % Lanes::cells);
     begin_[slot] = step;
-    is_certain_[slot] = false;
+    Lanes::set_cell(are_certain_[slot / Lanes::cells], slot % Lanes::cells, false);
     if (next_motion_ == walks_.count) {
       motion_[slot] = nullptr;
       for (unsigned lane = 0; lane < 4; ++lane)
@@ -164,7 +171,7 @@ class Walks_in_lanes {
       }
     motion_[slot] = &motion;
     cell_[slot] = motion.cell;
-    is_certain_[slot] = motion.starts_inside;
+    Lanes::set_cell(are_certain_[slot / Lanes::cells], slot % Lanes::cells, motion.starts_inside);
     ++active_;
   }
 
@@ -185,23 +192,24 @@ class Walks_in_lanes {
   }
 
   /// Where the exit is not that of most steps: none, undecided, or from a start in the boundary.
-  /// \param is_inside the start is on the inner side of the exit, if there is one
-  [[gnu::noinline]] void leave_or_end(unsigned slot, unsigned lane, bool is_inside, bool arrives,
+  /// \param inner of which facets the start is on the inner side, as bits
+  [[gnu::noinline]] void leave_or_end(unsigned slot, unsigned lane, unsigned inner, bool arrives,
                                       unsigned step) {
-    if (lane == Exit_lanes::none || !is_inside)
+    if (lane == Exit_lanes::none || (inner >> lane & 1) == 0)
       return end(slot, arrives ? Lane_verdict::arrived : Lane_verdict::undecided, step, step + 1);
     const unsigned f = 4 * cell_[slot] + lane, link = walks_.links[f];
     met_.half_facet[lane_slots * static_cast<unsigned long>(step) + slot] = f;
     if (static_cast<int>(link) < 0) return end(slot, Lane_verdict::blocked, step + 1, step + 1);
     cell_[slot] = link;
-    is_certain_[slot] = true;
+    Lanes::set_cell(are_certain_[slot / Lanes::cells], slot % Lanes::cells, true);
   }
 
   const Lane_walks& walks_;
   Lines lines_[lane_slots / Lanes::cells];
   Lane_met met_;
   unsigned cell_[lane_slots];
-  bool is_certain_[lane_slots];  ///< the line passes the inside of the cell before any exit
+  /// The line passes the inside of the cell before any exit.
+  typename Lanes::Bits are_certain_[lane_slots / Lanes::cells] = {};
   unsigned begin_[lane_slots];
   const Lane_motion* motion_[lane_slots];
   unsigned long next_motion_ = 0;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -86,27 +87,33 @@ class Row_lengths {
   Row_lengths(const Lane_functions& functions, const Lane_segments& segments)
       : functions_(functions), segments_(segments) {}
 
-  void clear() { count_ = 0; }
+  void clear() { count_ = rows_ = 0; }
   /// \param segment that of the row
   /// \return where its lengths are after measure()
   std::size_t add(std::size_t segment, const Lane_crossings& crossings) {
-    const std::size_t at = count_ + 1;
+    const std::size_t at = count_ + 2;
     reserve(at + crossings.count + 1);
     functions_.place(segments_, segment, crossings, places_, count_);
+    ++rows_;
     return at;
   }
-  void measure() { functions_.measure(places_, count_, segments_.error, lengths_); }
+  void measure() {
+    are_certain_ = functions_.measure(places_, count_, segments_.error, lengths_) == count_ - 2 * rows_;
+  }
   /// Those that are not certain are 0.
   const double* at(std::size_t i) const { return lengths_ + i; }
+  bool are_certain(std::size_t at, std::size_t pieces) const {
+    return are_certain_ || std::all_of(lengths_ + at, lengths_ + at + pieces, [](double x) { return x > 0; });
+  }
 
  private:
   void reserve(std::size_t count) {
     if (count + lane_room <= stride_) return;
-    const std::size_t stride = 2 * count + lane_room;
-    std::vector<double> kept(5 * stride);
-    double* next = kept.data();
-    for (double** array : {&places_.height_high, &places_.height_low, &places_.slope_high, &places_.slope_low,
-                           &lengths_}) {
+    const std::size_t stride = std::max<std::size_t>(700, 2 * count + lane_room);
+    std::unique_ptr<double[]> kept(new double[5 * stride]);
+    double* next = kept.get();
+    for (double** array :
+         {&places_.height_high, &places_.height_low, &places_.slope_high, &places_.slope_low, &lengths_}) {
       std::copy_n(*array, count_, next);
       *array = std::exchange(next, next + stride);
     }
@@ -116,8 +123,9 @@ class Row_lengths {
 
   const Lane_functions& functions_;
   const Lane_segments& segments_;
-  std::vector<double> kept_;
-  std::size_t stride_ = 0, count_ = 0;
+  std::unique_ptr<double[]> kept_;
+  std::size_t stride_ = 0, count_ = 0, rows_ = 0;
+  bool are_certain_ = false;  ///< all of them
   Lane_places places_{};
   double* lengths_ = nullptr;
 };
@@ -225,14 +233,10 @@ class Trace_call {
     const bool is_blocked = row.verdict == detail::Lane_verdict::blocked;
     const std::size_t met = walks_.count_of_met(row), passed = is_blocked ? met - 1 : met,
                       pieces = passed + 1;
-    const double* const measured = together_.at(at_[i % rows_together]);
-    double* const lengths = traces_.lengths.data() + pieces_;
-    bool are_certain = true;
-    for (std::size_t k = 0; k < pieces; ++k) {
-      lengths[k] = measured[k];
-      are_certain &= measured[k] > 0;
-    }
-    if (!are_certain) return false;
+    const std::size_t at = at_[i % rows_together];
+    if (!together_.are_certain(at, pieces)) return false;
+    for (std::size_t k = 0; k < pieces; k += detail::lane_room)  // more than the row has: quicker
+      std::copy_n(together_.at(at + k), detail::lane_room, traces_.lengths.data() + pieces_ + k);
     const unsigned* const facets = walks_.met(row);
     const bool is_by_four = snapshot_.uniform_blocks() == 1;  // cells have four half-facets each
     Cell* const cells = traces_.cells.data() + pieces_;
@@ -334,10 +338,10 @@ class Trace_call {
   Walk_counts& counts_;
   detail::Block_walk<D> walks_;
   detail::Block_segments segments_;
-  detail::Row_lengths together_, alone_;           ///< of rows that planes decide, and of one of the others
-  std::array<std::size_t, rows_together> at_;      ///< in the former
-  std::size_t pieces_, crossings_;  ///< appended
-  std::size_t expected_ = 0;        ///< pieces of the rows of the block that are not yet appended
+  detail::Row_lengths together_, alone_;       ///< of rows that planes decide, and of one of the others
+  std::array<std::size_t, rows_together> at_;  ///< in the former
+  std::size_t pieces_, crossings_;             ///< appended
+  std::size_t expected_ = 0;                   ///< pieces of the rows of the block that are not yet appended
   std::vector<unsigned> met_;
   std::vector<Cell> visited_;
   std::vector<Half_facet> crossed_;

@@ -31,24 +31,25 @@ struct Wide_lanes {
   /// Each plane is a row of eight: its high parts, then its low parts.
   static void load(const Lane_plane* planes, const unsigned* of_lane, unsigned long stride, Vector* high,
                    Vector* low) {
-    __m512d pairs[8], fours[8];
-    for (unsigned long i = 0; i < 8; i += 2) {
-      const __m512d even = _mm512_load_pd(planes[of_lane[i * stride]].high),
-                    odd = _mm512_load_pd(planes[of_lane[(i + 1) * stride]].high);
-      pairs[i] = _mm512_unpacklo_pd(even, odd);
-      pairs[i + 1] = _mm512_unpackhi_pd(even, odd);
-    }
-    for (int i = 0; i < 8; i += 4)
-      for (int k = 0; k < 2; ++k) {
-        fours[i + k] = _mm512_shuffle_f64x2(pairs[i + k], pairs[i + k + 2], 0x88);
-        fours[i + k + 2] = _mm512_shuffle_f64x2(pairs[i + k], pairs[i + k + 2], 0xdd);
-      }
-    for (int k = 0; k < 4; ++k) {
-      const __m512d first = _mm512_shuffle_f64x2(fours[k], fours[k + 4], 0x88),
-                    second = _mm512_shuffle_f64x2(fours[k], fours[k + 4], 0xdd);
-      high[k] = Vector(first);
-      low[k] = Vector(second);
-    }
+    const double* plane[8];
+    for (unsigned long i = 0; i < 8; ++i) plane[i] = planes[of_lane[i * stride]].high;
+    transpose(plane, high);
+    for (const double*& p : plane) p += 4;
+    transpose(plane, low);
+  }
+  /// Four components of eight rows.
+  static void transpose(const double* const rows[8], Vector columns[4]) {
+    const auto two = [&](int first, int second) {
+      return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_load_pd(rows[first])), 0xf0,
+                                         _mm256_load_pd(rows[second]));
+    };
+    const __m512d a = two(0, 2), b = two(1, 3), c = two(4, 6), d = two(5, 7);
+    const __m512d ab_02 = _mm512_unpacklo_pd(a, b), ab_13 = _mm512_unpackhi_pd(a, b);
+    const __m512d cd_02 = _mm512_unpacklo_pd(c, d), cd_13 = _mm512_unpackhi_pd(c, d);
+    columns[0] = Vector(_mm512_shuffle_f64x2(ab_02, cd_02, 0x88));
+    columns[1] = Vector(_mm512_shuffle_f64x2(ab_13, cd_13, 0x88));
+    columns[2] = Vector(_mm512_shuffle_f64x2(ab_02, cd_02, 0xdd));
+    columns[3] = Vector(_mm512_shuffle_f64x2(ab_13, cd_13, 0xdd));
   }
   /// The last lane of `before`, then the others of x.
   static Vector shift(Vector before, Vector x) {
@@ -57,12 +58,15 @@ struct Wide_lanes {
   }
   /// Stores lengths, known by a low part and an error, that are positive and rounded to nearest, and 0 for
   /// others.
-  static void store_certain(double* to, Vector length, Vector low, Vector error) {
+  /// \return how many of the first `count` are
+  static unsigned store_certain(double* to, Vector length, Vector low, Vector error, unsigned long count) {
     const __m512d above = __m512d(length + (low + error)), below = __m512d(length + (low - error));
     const unsigned certain = _mm512_cmp_pd_mask(above, __m512d(length), _CMP_EQ_OQ) &
                              _mm512_cmp_pd_mask(below, __m512d(length), _CMP_EQ_OQ) &
                              _mm512_cmp_pd_mask(__m512d(length), _mm512_setzero_pd(), _CMP_GT_OQ);
     _mm512_storeu_pd(to, _mm512_maskz_mov_pd(static_cast<__mmask8>(certain), __m512d(length)));
+    const unsigned counted = count < width ? certain & ((1u << count) - 1) : certain;
+    return static_cast<unsigned>(__builtin_popcount(counted));
   }
 };
 
@@ -97,6 +101,9 @@ struct Wide_cells {
     return Floats(_mm512_min_ps(half, _mm512_permute_ps(half, _MM_SHUFFLE(1, 0, 3, 2))));
   }
   static unsigned mask(Bits lanes) { return lanes; }
+  static void set_cell(Bits& lanes, unsigned cell, bool to) {
+    lanes = (lanes & ~(0xfu << 4 * cell)) | (to ? 0xfu << 4 * cell : 0);
+  }
   /// The bits by which Exit_lanes has exits, of all cells.
   static unsigned exits(Bits first, Bits decided) {
     return _pdep_u32(first, 0x0f0f0f0f) | _pdep_u32(decided, 0xf0f0f0f0);
