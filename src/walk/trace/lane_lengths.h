@@ -50,9 +50,8 @@ struct Lane_crossings {
   bool end_on_last;  ///< the last of them ends the segment
 };
 
-/// Where pieces begin and end, as quotients height / slope: those of one segment after the other, each a place
-/// that is no number, its start, which is at 0, and the places of facets to its end. Arrays with room for
-/// lane_room more.
+/// Where pieces begin and end, as quotients height / slope. Each segment has a place that is no number, its
+/// start, which is at 0, and then the places of facets, to its end. Arrays with room for lane_room more.
 struct Lane_places {
   double *height_high, *height_low, *slope_high, *slope_low;
 };
