@@ -72,6 +72,7 @@ Batch<D> make_batch(const World<D>& world, const Locator<D>& locator, std::uint6
     std::vector<Particle<D>> sides = locator.particles_at(start);
     if (sides.empty()) sides.push_back({start});
     batch.particles.push_back(sides[source.random().below(sides.size())]);
+    batch.particles.back().aimed = static_cast<std::uint16_t>(source.random().below(3));
     Point<D> target = source.target(kind, start, last);
     if (batch.particles.size() % 64 == 0) target = start + 64.0 * (target - start);  // far out of the frame
     batch.targets.push_back(target);
@@ -81,6 +82,7 @@ Batch<D> make_batch(const World<D>& world, const Locator<D>& locator, std::uint6
 }
 
 struct Traced {
+  Walk_counts counts;  ///< of the walks
   std::size_t rows = 0, pieces = 0, blocked = 0, with_shared_pieces = 0, left_out = 0, without_cell = 0;
 };
 
@@ -126,8 +128,7 @@ void expect_row(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Part
   Particle<D> walked = start;
   std::vector<Cell> visited;
   std::vector<Half_facet> crossed;
-  Walk_counts counts;
-  const Walk_result<D> result = move(snapshot, walked, target, counts, {&visited, &crossed});
+  const Walk_result<D> result = move(snapshot, walked, target, seen.counts, {&visited, &crossed});
   EXPECT_EQ(end.status, result.status);
   EXPECT_EQ(end.cell, result.cell);
   EXPECT_EQ(end.wall, result.contact ? result.contact->facet : Half_facet::none);
@@ -173,6 +174,7 @@ void expect_row(const Oracle<D>& oracle, const Snapshot<D>& snapshot, const Part
 template <int D>
 Traced trace_worlds(std::size_t rows, std::uint64_t seed) {
   Traced seen;
+  Walk_counts traced;
   const std::size_t rows_of_world = 300;
   for (std::uint64_t number = seed; seen.rows < rows; ++number) {
     const World<D> world = make_world<D>(number);
@@ -192,7 +194,12 @@ Traced trace_worlds(std::size_t rows, std::uint64_t seed) {
         return seen;
       }
     }
+    traced.walks += counts.walks;
+    traced.stays += counts.stays;
+    traced.crossings += counts.crossings;
   }
+  EXPECT_EQ(std::tie(traced.walks, traced.stays, traced.crossings),
+            std::tie(seen.counts.walks, seen.counts.stays, seen.counts.crossings));
   return seen;
 }
 
