@@ -193,7 +193,9 @@ std::size_t known_planes(const detail::Lane_planes& planes) {
 
 TEST(LanePlanes, AreUnknownIfEachCornerIsThin) {
   EXPECT_EQ(known_planes(detail::lane_planes(needle(1, 1, 0))), 4u);
-  EXPECT_EQ(known_planes(detail::lane_planes(needle(0x1p-20, 1, 0))), 3u);
+  EXPECT_EQ(known_planes(detail::lane_planes(needle(0x1p-4, 1, 0))), 4u);
+  for (const double height : {0x1p-8, 0x1p-20})
+    EXPECT_EQ(known_planes(detail::lane_planes(needle(height, 1, 0))), 3u) << height;
 }
 
 TEST(LanePlanes, AreUnknownIfTermsOverflowOrUnderflow) {
