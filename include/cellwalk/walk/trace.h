@@ -66,7 +66,7 @@ class Tracer {
   /// \throw Error(usage) for another number of targets, if points were moved or cells replaced since the
   ///        tracer was made, and as walk(); Error(input) as walk(). Then rows and particles are as before
   /// Degenerate cases: a motion of length 0 has no piece. A length that rounds to 0 is 0.
-  /// Cost: 10 to 17 ns a crossing if cells are in the cache; 0.3 to 0.9 us a crossing for motions through
+  /// Cost: 10 to 17 ns a crossing if cells are in the cache; 0.3 to 0.7 us a crossing for motions through
   /// ridges, through vertices or along facets. Thread-safe, with traces and counts of one's own; the results
   /// do not depend on how motions are divided among calls.
   void trace(std::span<Particle<D>> particles, std::span<const Point<D>> targets, Traces& traces,

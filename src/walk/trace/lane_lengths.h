@@ -14,7 +14,8 @@
 // u^2 M / |n.e|, as the low part of n.e is within u of the high one, relatively. (It is not if |n.e| < 2^5 u,
 // but then the error leaves all lengths open.) Together that is less than 2^16 u^2 M / |n.e|. The unit of
 // errors is twice as much, for terms of higher order, for 1 / (n.e), which is rounded, and for the rounding
-// of the difference of two positions. The length of the segment itself is known within 2^6 u^2 M.
+// of the difference of two positions. The length of the segment itself is known within 2^6 u^2 M. Its two
+// ends have the error of one unit, though the start has none.
 //
 // The bound holds at ridges and vertices, too: those of a facet lie in its plane, which a segment that passes
 // them meets there and nowhere else, if n.e is not 0; and if it is, the error leaves all lengths open.
@@ -51,7 +52,8 @@ struct Lane_crossings {
 };
 
 /// Where pieces begin and end, as quotients height / slope. Each segment has a place that is no number, its
-/// start, which is at 0, and then the places of facets, to its end. Arrays with room for lane_room more.
+/// start, which is at 0, and then the places of facets, to its end. The first of these parts segments: no
+/// length up to it, or from it on, is certain. Arrays with room for lane_room more.
 struct Lane_places {
   double *height_high, *height_low, *slope_high, *slope_low;
 };
