@@ -14,8 +14,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "walk/lane_kinds.h"
+#include "walk/lane_measures.h"
 #include "walk/trace/block_walk.h"
+#include "walk/trace/lane_kinds.h"
 #include "walk/trace/lane_planes.h"
 
 namespace cellwalk {
@@ -62,7 +63,7 @@ TEST_F(TraceLanes, AreRoundedToNearestByEveryKindOfProcessor) {
         lengths_of_pieces(snapshot_, particle->position, to, exits, visited.size());
     std::vector<unsigned> met;
     for (const Half_facet f : crossed) met.push_back(to_index(f));
-    for (const Kind& kind : kinds()) {
+    for (const detail::Lane_kind& kind : detail::lane_kinds()) {
       const Measured measured(particle->position, to, planes_, met, error, kind.functions);
       ASSERT_TRUE(measured.is_certain) << kind.name;
       ASSERT_EQ(measured.length, exact) << kind.name;
@@ -91,7 +92,7 @@ TEST_F(TraceLanes, AreRoundedToNearestIfTheyRunAlmostAlongAFacet) {
                      to = near(snapshot_.point(loop[1]), random_.real(-1, -0.5) * slope);
       const std::vector<Cell_exit> exits{{facet}};
       const std::vector<double> exact = lengths_of_pieces(snapshot_, from, to, exits, 2);
-      for (const Kind& kind : kinds()) {
+      for (const detail::Lane_kind& kind : detail::lane_kinds()) {
         const Measured measured(from, to, planes_, {to_index(facet)}, error, kind.functions);
         certain += measured.is_certain;
         if (measured.is_certain) {
@@ -99,7 +100,7 @@ TEST_F(TraceLanes, AreRoundedToNearestIfTheyRunAlmostAlongAFacet) {
         }
       }
     }
-    EXPECT_GT(certain, 200 * kinds().size()) << slope;
+    EXPECT_GT(certain, 200 * detail::lane_kinds().size()) << slope;
   }
 }
 
@@ -120,7 +121,7 @@ TEST_F(TraceLanes, WalkAsExactWalksIfPlanesDecide) {
       inwards = inwards + (snapshot_.point(p) - from);
     targets.back() = from + inwards;
   }
-  for (const Kind& kind : kinds()) {
+  for (const detail::Lane_kind& kind : detail::lane_kinds()) {
     detail::Block_walk<3> walks(snapshot_, planes_, kind.functions);
     walks.run(particles, targets);
     std::size_t arrived = 0, blocked = 0, from_vertices = 0;
@@ -157,7 +158,7 @@ TEST_F(TraceLanes, LeaveLengthsOpenThatTheirErrorsDoNotRound) {
   detail::Lane_planes unknown = planes_;
   unknown.planes[met[5]] = {};
   const double error = detail::lane_error * planes_.size;
-  for (const Kind& kind : kinds()) {
+  for (const detail::Lane_kind& kind : detail::lane_kinds()) {
     EXPECT_TRUE(Measured(particle->position, to, planes_, met, error, kind.functions).is_certain);
     EXPECT_FALSE(Measured(particle->position, to, planes_, met, 0x1p-50, kind.functions).is_certain)
         << kind.name;

@@ -18,7 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "walk/lane_kinds.h"
+#include "walk/lane_measures.h"
+#include "walk/trace/lane_kinds.h"
 
 namespace cellwalk {
 namespace {
@@ -164,7 +165,7 @@ TEST_F(TraceTies, AreLeftOpenByLanesAndRoundedByExactNumbers) {
     ASSERT_EQ(lengths[tie->piece], tie->nearest);
     std::vector<unsigned> met;
     for (const Cell_exit& exit : tie->exits) met.push_back(to_index(exit.facet));
-    for (const Kind& kind : kinds()) {
+    for (const detail::Lane_kind& kind : detail::lane_kinds()) {
       const Measured measured(tie->particle.position, tie->to, planes_, met, error, kind.functions);
       ASSERT_EQ(measured.length[tie->piece], 0) << kind.name << ", piece " << tie->piece;
       for (std::size_t i = 0; i < lengths.size(); ++i)

@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "block_walk.h"
+#include "lane_kinds.h"
 #include "lane_planes.h"
 #include "piece_lengths.h"
-#include "plain_lanes.h"
 #include "row_lengths.h"
 
 namespace cellwalk {
@@ -30,24 +30,6 @@ void Traces::clear() {
   crossings.clear();
   ends.clear();
 }
-
-namespace detail {
-namespace {
-
-/// The functions for this processor.
-const Lane_functions& chosen_functions() {
-#if defined(CELLWALK_HAS_FUSED_LANES)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("bmi2"))
-    return wide_lane_functions;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return fused_lane_functions;
-#endif
-  return plain_lane_functions;
-}
-
-}  // namespace
-}  // namespace detail
 
 template <int D>
 struct Tracer<D>::Planes {
@@ -295,7 +277,7 @@ class Rows_kept {
 template <int D>
 Tracer<D>::Tracer(const Snapshot<D>& snapshot)
     : planes_(new Planes{&snapshot, snapshot.geometry_epoch(), detail::lane_planes(snapshot),
-                         detail::chosen_functions()}) {}
+                         detail::lane_kinds().back().functions}) {}
 
 template <int D>
 Tracer<D>::~Tracer() = default;

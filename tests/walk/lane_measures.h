@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The arithmetic of each kind of processor that this one has, and segments measured by it.
-#ifndef CELLWALK_TESTS_WALK_LANE_KINDS_H
-#define CELLWALK_TESTS_WALK_LANE_KINDS_H
+// Segments measured in lanes, and piece by piece.
+#ifndef CELLWALK_TESTS_WALK_LANE_MEASURES_H
+#define CELLWALK_TESTS_WALK_LANE_MEASURES_H
 
 #include <cellwalk/environment/snapshot.h>
 #include <cellwalk/walk/walk.h>
@@ -13,29 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "walk/trace/lane_functions.h"
 #include "walk/trace/lane_planes.h"
 #include "walk/trace/piece_lengths.h"
-#include "walk/trace/plain_lanes.h"
 
 namespace cellwalk {
-
-struct Kind {
-  const char* name;
-  const detail::Lane_functions& functions;
-};
-
-inline std::vector<Kind> kinds() {
-  std::vector<Kind> kinds{{"plain", detail::plain_lane_functions}};
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    kinds.push_back({"fused", detail::fused_lane_functions});
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("bmi2"))
-    kinds.push_back({"wide", detail::wide_lane_functions});
-#endif
-  return kinds;
-}
 
 /// The lengths of all pieces of a motion, each by itself.
 inline std::vector<double> lengths_of_pieces(const Snapshot<3>& snapshot, const Point<3>& from,
@@ -89,4 +71,4 @@ class Measured {
 
 }  // namespace cellwalk
 
-#endif  // CELLWALK_TESTS_WALK_LANE_KINDS_H
+#endif  // CELLWALK_TESTS_WALK_LANE_MEASURES_H
