@@ -35,5 +35,5 @@ def run(env, seed, count):
         observation, reward, terminated, truncated, info = env.step(action)
         over = terminated or truncated
         parts += [observation[name].tobytes() for name in sorted(observation)]
-        parts += [repr((reward, terminated, truncated, info["remaining"])).encode(), info["contacts"].tobytes(), env.contacts.tobytes(), env.body.positions.tobytes()]
+        parts += [repr((reward, terminated, truncated, info["remaining"])).encode(), repr((info["contacts"], info["normals"])).encode(), env.contacts.tobytes(), env.body.positions.tobytes()]
     return b"".join(parts)

@@ -11,6 +11,7 @@ import pathlib
 import pickle
 import tempfile
 import unittest
+import warnings
 
 import numpy
 
@@ -54,6 +55,9 @@ class Lumens(unittest.TestCase):
         self.assertEqual(sorted(tube.groups), ["inlet", "outlet", "physical volume 3"])
         named = Lumen(tube, "inlet")
         self.assertEqual(named.names, ["outlet"], "the group of all cells is no target unless it is named")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(Lumen(tube, numpy.array([1.1, 1.1, 1.0])).names, ["inlet", "outlet"])
         self.assertLess(named.entry[2], 2)
         self.assertGreater(named.lines[0][-1][2], 6)
         env = CatheterEnv(named, radius=0.2, vertices=20, tip_degrees=0)
@@ -70,6 +74,11 @@ class Lumens(unittest.TestCase):
                                      ((0, 0, 0.2), [(9, 9, 9)], "target 1 at"), ("inlet", None, "no group"), ((0, 0, 0.2), ["inlet"], "no group")):
             with self.assertRaisesRegex(cellwalk.Error, said):
                 Lumen(vessel, start, targets)
+        for targets in ([], "inlet"):
+            with self.assertRaisesRegex(cellwalk.UsageError, "a list of points or names is needed"):
+                Lumen(vessel, (0, 0, 0.2), targets)
+        with self.assertRaisesRegex(cellwalk.UsageError, "target 2 is at the start"):
+            Lumen(vessel, (0, 0, 1.0), [(0, 0, 2), (0, 0, 1)])
         with self.assertRaisesRegex(cellwalk.UsageError, "2 dimensions"):
             Lumen(cellwalk.Environment.generate("squares", cells=2), (0.5, 0.5))
         rooms = cellwalk.Environment.generate("hexes", cells=(3, 1, 1))
@@ -77,6 +86,26 @@ class Lumens(unittest.TestCase):
             edits.close(rooms.select(box=((2, 0, 0), (2, 1, 1))).facets)
         with self.assertRaisesRegex(cellwalk.OutsideError, "target 1 is not connected with the start"):
             Lumen(rooms, (0.5, 0.5, 0.5), [(2.5, 0.5, 0.5)])
+
+    def test_a_target_too_near_to_a_wall_for_the_wire(self):
+        """Its tip keeps the radius from the wall, and has to come nearer to the target than the wall is."""
+        tube = Lumen(cellwalk.Environment.generate("hexes", cells=(8, 3, 3)), (0.5, 1.5, 1.5), [(6.5, 1.5, 0.25)])
+        self.assertAlmostEqual(tube.reaches[0], 0.25)
+        with self.assertRaisesRegex(cellwalk.OutsideError, "target 1 is 0.25 from a wall: a wire of radius 0.5 does not reach it"):
+            CatheterEnv(tube, radius=0.5)
+        CatheterEnv(tube, radius=0.49)
+
+    def test_reaches_of_points(self):
+        """Nothing is nearer, and something is little farther away."""
+        vessel = lumen().environment
+        rng = numpy.random.default_rng(7)
+        points = rng.uniform(vessel.points.min(axis=0), vessel.points.max(axis=0), size=(1000, 3))
+        points = points[vessel.locate(points).status == cellwalk.Place.FREE][:40]
+        self.assertEqual(len(points), 40)
+        reaches = numpy.array(Lumen(vessel, (0, 0, 0.2), points).reaches)
+        near, far = (vessel.walk(points, points, radius=factor * reaches).status for factor in (0.999, 1.001))
+        self.assertTrue((near == cellwalk.Status.FREE).all())
+        self.assertFalse((far == cellwalk.Status.FREE).any())
 
     def test_pickles(self):
         env = wire_env()

@@ -10,7 +10,7 @@ import numpy
 
 import cellwalk
 from catheter_runs import lumen, run, wire_env
-from cellwalk.catheter import _gymnasium
+from cellwalk.catheter import CatheterEnv, Lumen, _gymnasium
 
 HAS_GYMNASIUM = _gymnasium.Env is not _gymnasium._Env
 
@@ -24,9 +24,9 @@ class Rules(unittest.TestCase):
     def test_attributes(self):
         self.assertIsInstance(self.env, _gymnasium.Env)
         self.assertIs(self.env.unwrapped, self.env)
-        self.assertIn("render_modes", self.env.metadata)
-        self.assertGreater(self.env.metadata["render_fps"], 0)
+        self.assertEqual(self.env.metadata["render_modes"], [])
         self.assertIsNone(self.env.render_mode)
+        self.assertIsNone(self.env.spec)
         for name in ("seed", "options"):
             parameter = inspect.signature(self.env.reset).parameters[name]
             self.assertEqual((parameter.kind, parameter.default), (inspect.Parameter.KEYWORD_ONLY, None))
@@ -74,6 +74,8 @@ class Rules(unittest.TestCase):
             self.assertIs(type(terminated), bool)
             self.assertIs(type(truncated), bool)
             self.assertIsInstance(info, dict)
+            # Environments are put together as if an array in an info always had the same shape.
+            self.assertFalse(any(isinstance(value, numpy.ndarray) for value in info.values()))
             self.assertEqual((terminated, truncated), (False, number == 60))
         for name, value in kept.items():
             self.assertEqual(value.tobytes(), observation[name].tobytes(), "an observation stays as it was")
@@ -122,17 +124,13 @@ class Rules(unittest.TestCase):
             self.assertEqual(info["target"], lumen().names[1])
             numpy.testing.assert_array_equal(observation["target"], lumen().lines[1][-1])
         self.env.reset(options={})
-        for wrong in ({"target": 2}, {"target": -1}, {"target": "nowhere"}, {"turn": 181}, {"speed": 1}):
+        state = self.env.np_random.bit_generator.state
+        for wrong in ({"target": 2}, {"target": -1}, {"target": "nowhere"}, {"turn": 181}, {"turn": None}, {"turn": "9"}, {"speed": 1}):
             with self.assertRaisesRegex(cellwalk.UsageError, "reset.*target, one of"):
                 self.env.reset(options=wrong)
-
-    def test_render(self):
-        self.env.reset(seed=1)
-        self.assertIsNone(self.env.render())
-        env = wire_env(render_mode="ansi")
-        env.reset(seed=1)
-        env.step([1, 0])
-        self.assertRegex(env.render(), r"^step 1: 0\.\d+ inside, \d+\.\d+ from end [12]$")
+            self.assertEqual(self.env.np_random.bit_generator.state, state, "nothing was drawn")
+            with self.assertRaisesRegex(cellwalk.UsageError, "call reset"):
+                self.env.step([0, 0])
 
     def test_rewards_of_ones_own(self):
         env = wire_env(reward=lambda observation, info: observation["inserted"][0] + 10 * len(info["contacts"]))
@@ -140,12 +138,44 @@ class Rules(unittest.TestCase):
         rewards = [env.step([1, 0])[1] for _ in range(3)]
         numpy.testing.assert_allclose(rewards, numpy.arange(1, 4) * env.most_push, rtol=1e-12)
 
+    def test_integers_of_numpy(self):
+        words = {"vertices": 40, "most_steps": 50, "shape_points": 5, "path_points": 2}
+        self.assertEqual(run(wire_env(**{name: numpy.int64(number) for name, number in words.items()}), 1, 60), run(wire_env(**words), 1, 60))
+
+    def test_observations_are_in_their_space(self):
+        """Wires of fewer vertices than points of their shape, and with integers as lengths, also outside the lumen."""
+        for words in ({"vertices": 4, "spacing": 1, "most_push": 1, "tip_degrees": 0}, {"vertices": 10}):
+            env = wire_env(**words)
+            observation, _ = env.reset(seed=1)
+            for action in [[0, 0]] + [[1, 0.2]] * 8 + [[-1, -0.5]] * 10:
+                self.assertIn(observation, env.observation_space)
+                for name, value in observation.items():
+                    self.assertEqual((value.dtype, value.shape), (env.observation_space[name].dtype, env.observation_space[name].shape), name)
+                observation = env.step(action)[0]
+            self.assertEqual(env.wire.count, 0)
+
+    def test_a_vertex_that_is_pulled_out_meets_a_wall(self):
+        """Its contact is not one of the wire inside."""
+        start = -1.3536903438035695, -0.8423884921747744, 8.611245070262214
+        env = CatheterEnv(Lumen(lumen().environment, start, [lumen().lines[0][-1]]), radius=0.1, vertices=20, spacing=0.3, most_push=0.3, tip_degrees=90,
+                          tip_length=0.9, stiffness=3.0)
+        env.reset(seed=41)
+        rng = numpy.random.default_rng(41)
+        for push in (1, 1, 1, 1, 1, 1, -1, -1):
+            observation = env.step([push, rng.uniform(-1, 1)])[0]
+        self.assertGreaterEqual(env.contacts["vertex"].max(), env.wire.count)
+        self.assertIn(observation, env.observation_space)
+
     def test_refused_arguments(self):
         for words, said in (({"vertices": 3}, "vertices is 3"), ({"vertices": 40.0}, "vertices is 40.0"), ({"most_steps": 0}, "most_steps"),
                             ({"spacing": -1}, "spacing is -1"), ({"spacing": 0}, "spacing"), ({"stiffness": math.nan}, "stiffness is nan"),
-                            ({"most_push": 9}, "most_push is 9"), ({"most_turn": 181}, "most_turn"), ({"render_mode": "human"}, "'human'")):
+                            ({"most_push": 9}, "most_push is 9"), ({"most_turn": 181}, "most_turn"), ({"vertices": 1001}, "from 4 to 1000"),
+                            ({"vertices": "40"}, "vertices is '40': an integer"), ({"spacing": "1"}, "spacing is '1': a finite number"),
+                            ({"stiffness": 1e308}, "stiffness"), ({"reward": 5}, "a function as reward")):
             with self.assertRaisesRegex(cellwalk.UsageError, said):
                 wire_env(**words)
+        with self.assertRaisesRegex(cellwalk.UsageError, "a Lumen and a function"):
+            CatheterEnv(lumen().environment, radius=0.1)
         with self.assertRaisesRegex(ValueError, "radius must be a finite number"):
             wire_env(radius=-1)
         with self.assertRaisesRegex(cellwalk.OutsideError, "less than its radius 2"):
@@ -156,11 +186,24 @@ class Rules(unittest.TestCase):
         from gymnasium.utils.env_checker import check_env
         from gymnasium.wrappers import FlattenObservation, TimeLimit
 
-        check_env(wire_env(render_mode="ansi"))
+        check_env(wire_env())
         env = FlattenObservation(TimeLimit(wire_env(), 5))
         observation, _ = env.reset(seed=1)
         self.assertEqual(observation.shape, env.observation_space.shape)
         self.assertEqual([env.step(env.action_space.sample())[3] for _ in range(5)], [False] * 4 + [True])
+
+    @unittest.skipUnless(HAS_GYMNASIUM, "gymnasium is not installed")
+    def test_vectors_of_gymnasium(self):
+        from gymnasium.vector import SyncVectorEnv
+
+        envs = SyncVectorEnv([wire_env] * 3)
+        envs.reset(seed=5)
+        counts = set()
+        for _ in range(150):
+            *_, infos = envs.step(numpy.array([[1, 0.3], [1, -1], [0.5, 0]], dtype=numpy.float32))
+            self.assertEqual([len(contacts) for contacts in infos["contacts"]], [len(env.contacts) for env in envs.envs])
+            counts.add(tuple(len(contacts) for contacts in infos["contacts"]))
+        self.assertGreater(len(counts), 3)
 
 
 class Determinism(unittest.TestCase):

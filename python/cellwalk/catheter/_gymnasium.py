@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What environments need of Gymnasium: the classes of the package where it is installed, else small ones that do the same."""
+"""What environments need of Gymnasium: the classes of the package where it is installed, else small ones with what is used here."""
 
 import importlib
-from typing import Any, Mapping, Optional
+from typing import Any, Optional
 
 import numpy
 
@@ -28,31 +28,31 @@ class _Box:
     __contains__ = contains
 
 
-class _Dict:
+class _Dict(dict[str, Any]):
     """A space for each name."""
 
-    def __init__(self, spaces: Mapping[str, Any]) -> None:
-        self.spaces = dict(spaces)
+    @property
+    def spaces(self) -> dict[str, Any]:
+        return self
 
     def seed(self, seed: Optional[int] = None) -> None:
-        for space, own in zip(self.spaces.values(), numpy.random.SeedSequence(seed).spawn(len(self.spaces))):
+        for space, own in zip(self.values(), numpy.random.SeedSequence(seed).spawn(len(self))):
             space.seed(int(own.generate_state(1)[0]))
 
     def sample(self) -> dict[str, Any]:
-        return {name: space.sample() for name, space in self.spaces.items()}
+        return {name: space.sample() for name, space in self.items()}
 
     def contains(self, x: Any) -> bool:
-        return isinstance(x, dict) and x.keys() == self.spaces.keys() and all(x[name] in space for name, space in self.spaces.items())
+        return isinstance(x, dict) and x.keys() == self.keys() and all(x[name] in space for name, space in self.items())
 
     __contains__ = contains
-
-    def __getitem__(self, name: str) -> Any:
-        return self.spaces[name]
 
 
 class _Env:
     """Random numbers, and what wrappers expect."""
 
+    metadata: dict[str, Any] = {"render_modes": []}
+    render_mode, spec = None, None
     _np_random: Optional[numpy.random.Generator] = None
 
     @property
@@ -73,11 +73,8 @@ class _Env:
         pass
 
 
-Env: Any = _Env
-Box: Any = _Box
-Dict: Any = _Dict
 try:
-    _gymnasium = importlib.import_module("gymnasium")
+    _gymnasium: Any = importlib.import_module("gymnasium")
     Env, Box, Dict = _gymnasium.Env, _gymnasium.spaces.Box, _gymnasium.spaces.Dict
 except ImportError:
-    pass
+    Env, Box, Dict = _Env, _Box, _Dict

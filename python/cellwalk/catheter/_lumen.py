@@ -49,21 +49,27 @@ class Lumen:
         self._read(environment)
         cell, self.entry = self._place("start", start)
         cost = self._distances([cell], self._costs)
-        surfaces: list[Any] = [name for name in environment.groups if name != start and len(environment.select(group=name).cells) == 0]
+        own = start if isinstance(start, str) else None
+        surfaces: list[Any] = [name for name in environment.groups if name != own and len(environment.select(group=name).cells) == 0]
         given = surfaces if targets is None else [*targets]
+        if targets is not None and (isinstance(targets, str) or not given):
+            raise UsageError(f"Lumen(): targets are {targets!r}: a list of points or names is needed")
         self.names = [place if isinstance(place, str) else f"target {i + 1}" for i, place in enumerate(given)]
         places = [self._place(name, place) for name, place in zip(self.names, given)]
         if not given:
             places = [self._widest_near([end]) for end in self._ends(cell, cost)]
             self.names = [f"end {i + 1}" for i in range(len(places))]
-        for name, (goal, _) in zip(self.names, places):
+        for name, (goal, point) in zip(self.names, places):
+            if (point == self.entry).all():
+                raise UsageError(f"Lumen(): {name} is at the start")
             if not math.isfinite(cost[goal]):
                 raise OutsideError(f"Lumen(): {name} is not connected with the start")
         paths = [self._path(goal, cost) for goal, _ in places]
         step = float(numpy.median(self._width[numpy.concatenate(paths)])) / 2
         self.lines = [self._line(path, point, step) for path, (_, point) in zip(paths, places)]
         self.left = [numpy.concatenate([numpy.cumsum(lengths(line[1:] - line[:-1])[::-1])[::-1], [0.0]]) for line in self.lines]
-        wide, at = self._width[[goal for goal, _ in places]], numpy.array([point for _, point in places])
+        goals, at = [goal for goal, _ in places], numpy.array([point for _, point in places])
+        wide = self._width[goals] + lengths(at - self._means[goals])
         self.reaches = numpy.fmin(environment.walk(at, at, radius=wide, threads=1).distance, wide).tolist()
         ahead = self.lines[0][min(2, len(self.lines[0]) - 1)] - self.entry
         self.direction: _Array = ahead / lengths(ahead[None])

@@ -62,16 +62,14 @@ def _smoothers(count: int, stiffness: float) -> list[_Array]:
     Each is the former one, bordered by the row of a further vertex.
     """
     second = numpy.eye(count, count + 2) - 2 * numpy.eye(count, count + 2, 1) + numpy.eye(count, count + 2, 2)
-    full = numpy.eye(count + 2) + stiffness * (second[:, :, None] * second[:, None]).sum(axis=0)
+    full = numpy.eye(count + 2) + stiffness * (second.T @ second)  # of small integers: exact
     result = [numpy.zeros((0, 0))]
     for n in range(count):
         border = (result[n] * full[n, :n]).sum(axis=1)
         rest = full[n, n] - (full[n, :n] * border).sum()
-        larger = numpy.empty((n + 1, n + 1))
-        larger[:n, :n] = result[n] + border[:, None] * border / rest
-        larger[:n, n] = larger[n, :n] = -border / rest
-        larger[n, n] = 1 / rest
-        result.append(larger)
+        column = numpy.append(border, -1.0)
+        result.append(column[:, None] * column / rest)
+        result[-1][:n, :n] += result[n]
     return result
 
 
@@ -88,7 +86,7 @@ class Wire:
         self._starts = numpy.tile(self._entry, (vertices, 1))
         self._stiffness, self._smoothers = stiffness, _smoothers(vertices, stiffness)
         self._products = numpy.empty((vertices, vertices))
-        self._bends = min(vertices - 2, int(tip_length / spacing))  # vertices at which it is curved by nature
+        self._bends = min(vertices - 2, int(min(vertices, tip_length / spacing)))  # vertices at which it is curved by nature
         cosine, sine = turned(tip_angle / max(1, self._bends) / 2)
         self._towards_side, self._back = 2 * spacing * sine * cosine, 2 * spacing * sine * sine
         side = _cross(self._guide_floats, numpy.eye(3)[numpy.argmin(numpy.abs(self._guide))].tolist())
@@ -209,7 +207,7 @@ class Wire:
         """Points at equal distances along the wire inside, from the tip to the entry: (count, 3)."""
         x, along, n = self._x, self._along, self._x.shape[1] - 2
         if n == 0:
-            return self._starts[:count].copy()
+            return numpy.tile(self._entry, (count, 1))
         at = self.length * numpy.arange(count - 1, -1, -1) / (count - 1)
         before = numpy.minimum(numpy.maximum(n - numpy.searchsorted(along[n::-1], at, side="right"), 0), n - 1)
         share = (at - along[before + 1]) / numpy.maximum(along[before] - along[before + 1], 1e-300)
