@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // cellwalk import MESH -o ENV.ovm: converts any mesh to a certified environment, and reports every change.
+#include <cellwalk/internal/io/named_points.h>
 #include <cellwalk/internal/loading/environment_writer.h>
 #include <cellwalk/internal/loading/mesher.h>
 
@@ -22,7 +23,7 @@ namespace cellwalk::cli {
 namespace {
 
 struct Options {
-  std::string mesh, environment, json, picture;
+  std::string mesh, environment, json, picture, names;
   bool no_split = false;
   double edge_length = 0;
   Import_options import;
@@ -102,11 +103,12 @@ std::string text(const Import_report& report) {
 
 void import(Options& options) {
   std::vector<std::string> inputs = options.import.obstacles;
-  inputs.push_back(options.mesh);
+  inputs.insert(inputs.end(), {options.mesh, options.names});
   Outputs outputs(inputs);
   io::Atomic_file* const file = outputs.file(options.environment);
   io::Atomic_file* const json = outputs.file(options.json);
   io::Atomic_file* const picture = outputs.file(options.picture);
+  if (!options.names.empty()) options.import.names = io::read_named_points(options.names);
   options.import.build.split = !options.no_split;
   Surface_soup surface;
   if (picture != nullptr)
@@ -149,9 +151,10 @@ void add_import(CLI::App& app, Action& chosen) {
   command
       ->add_option("--obstacle", options->import.obstacles,
                    "A closed surface inside; may be given several times")
+      ->allow_extra_args(false)
       ->type_name("MESH2");
   add_mesher_options(*command, options->import.mesher, options->import.tissue);
-  add_repair_options(*command, options->import);
+  add_repair_options(*command, options->import.mesher, options->names);
   CLI::Option* const no_split = command->add_flag(
       "--no-split", options->no_split, "Refuse cells that are not exactly convex instead of splitting");
   command

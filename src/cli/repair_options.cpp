@@ -2,17 +2,12 @@
 // Options for surfaces with defects.
 #include "cli/repair_options.h"
 
-#include <cellwalk/internal/io/json_file.h>
 #include <cellwalk/internal/loading/mesher.h>
 #include <cellwalk/kernel/error.h>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <map>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -36,36 +31,10 @@ Point<3> point_of(const std::string& text) {
   return p;
 }
 
-/// The points of names in a JSON file.
-std::map<std::string, Point<3>> names_of(const std::string& file) {
-  std::map<std::string, Point<3>> names;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(Error_code::input, file + ": cannot be read; name a JSON file of names with points");
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  nlohmann::ordered_json json;
-  try {
-    json = io::parse_ordered_json(file, text);
-  } catch (const nlohmann::json::exception&) {
-    throw Error(Error_code::input, file + ": is no JSON; write {\"inlet\": [x, y, z], ...}");
-  }
-  if (!json.is_object())
-    throw Error(Error_code::input, file + ": expected an object {\"inlet\": [x, y, z], ...}");
-  for (const auto& [name, place] : json.items()) {
-    const bool is_point =
-        place.is_array() && place.size() == 3 &&
-        std::all_of(place.begin(), place.end(), [](const auto& x) { return x.is_number(); });
-    if (!is_point || name.empty())
-      throw Error(Error_code::input, fmt::format("{}: {}: expected a point [x, y, z]", file, name));
-    names[name] = place.get<Point<3>>();
-  }
-  return names;
-}
-
 }  // namespace
 
-void add_repair_options(CLI::App& command, Import_options& import) {
+void add_repair_options(CLI::App& command, Mesher_options& options, std::string& names) {
   if (!mesher_parts().meshing) return;
-  Mesher_options& options = import.mesher;
   CLI::Option* const strict = command.add_flag(
       "--strict", options.is_strict,
       "Refuse surfaces that are open, not manifold or cross themselves, and cells that do not conform");
@@ -74,6 +43,11 @@ void add_repair_options(CLI::App& command, Import_options& import) {
           "--inside",
           [&options](const std::vector<std::string>& values) {
             for (const std::string& value : values) {
+              const bool is_word = value == "solid" || value == "auto";
+              if (is_word && values.size() > 1)
+                throw Error(Error_code::usage,
+                            fmt::format("--inside {}: is given with another one: give {} alone, or points",
+                                        value, value));
               if (value == "solid")
                 options.repair.is_solid = true;
               else if (value != "auto")
@@ -88,16 +62,14 @@ void add_repair_options(CLI::App& command, Import_options& import) {
       ->default_str("auto")
       ->type_name("auto|solid|X,Y,Z");
   command
-      .add_option_function<std::string>(
-          "--names", [&import](const std::string& file) { import.names = names_of(file); },
-          "Names of caps and mouths: a JSON file of names with points, {\"inlet\": [x, y, z], ...}; each "
-          "goes to the "
-          "nearest one")
+      .add_option("--names", names,
+                  "Names of caps and mouths: a JSON file of names with points, {\"inlet\": [x, y, z], ...}; "
+                  "each goes to the nearest one")
       ->excludes(strict)
       ->type_name("FILE");
   const auto part = [&](const char* name, double& value, const char* what) {
     command.add_option(name, value, what)
-        ->check(number_from(0, "of at least 0"))
+        ->check(number_from(0, "from 0 to below 1", std::nextafter(1.0, 0.0)))
         ->excludes(strict)
         ->type_name("REL")
         ->capture_default_str();

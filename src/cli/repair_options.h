@@ -8,11 +8,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+
 namespace cellwalk::cli {
 
 /// Adds them, in a build that can mesh.
-/// \param import outlives the command
-void add_repair_options(CLI::App& command, Import_options& import);
+/// \param options outlive the command
+/// \param names the file with names for caps and mouths; outlives the command
+void add_repair_options(CLI::App& command, Mesher_options& options, std::string& names);
 
 }  // namespace cellwalk::cli
 

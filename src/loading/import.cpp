@@ -46,10 +46,11 @@ class Import {
       for (const std::string& path : options_.obstacles) mesher.obstacle_names.push_back("obstacle " + path);
       return build_meshed(naming(path_, [&] { return mesh_surface(*surface, obstacles, mesher); }));
     }
-    if (const char* option = option_of_surfaces())
+    const auto* domain = std::get_if<Planar_domain>(&file.mesh);
+    if (const char* option = option_of_surfaces(domain != nullptr))
       throw Error(Error_code::usage, fmt::format("{} goes with a surface, and {} holds a {}", option, path_,
                                                  io::kind_name(file.mesh)));
-    if (const auto* domain = std::get_if<Planar_domain>(&file.mesh))
+    if (domain != nullptr)
       return build_meshed(naming(path_, [&] { return mesh_domain(*domain, options_.mesher); }));
     if (auto* soup = std::get_if<Cell_soup<2>>(&file.mesh))
       return build_cells(std::move(*soup), std::move(file.groups));
@@ -57,14 +58,17 @@ class Import {
   }
 
  private:
-  /// An option that has an effect on surfaces only, if one is given.
-  const char* option_of_surfaces() const {
+  /// An option that has no effect on a file of cells, or a planar domain, if one is given.
+  const char* option_of_surfaces(bool is_domain) const {
     const Mesher_options& mesher = options_.mesher;
     if (!options_.obstacles.empty()) return "--obstacle";
+    if (!options_.names.empty()) return "--names";
+    if (mesher.mesher != Mesher::tetgen) return "--mesher";
+    if (mesher.keep_obstacles && !is_domain) return "--keep-obstacles";
     if (mesher.quality) return "--quality";
     if (mesher.cell_size != 0) return "--cell-size";
-    if (mesher.repair.is_solid || !mesher.repair.inside.empty()) return "--inside";
-    return mesher.distance != 0 ? "--distance" : nullptr;
+    if (mesher.distance != 0) return "--distance";
+    return option_of_repair(mesher.repair);
   }
 
   void begin(const std::string& stage) const {

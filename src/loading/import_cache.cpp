@@ -2,6 +2,7 @@
 // Imported environments in files that are named after all they depend on.
 #include <cellwalk/internal/environment/image_format.h>
 #include <cellwalk/internal/io/mapped_file.h>
+#include <cellwalk/internal/io/mesh_files.h>
 #include <cellwalk/internal/kernel/checksum.h>
 #include <cellwalk/internal/loading/import_call.h>
 
@@ -24,19 +25,10 @@ std::uint64_t content(const fs::path& file) { return detail::checksum(io::map_fi
 /// A description of all bytes that are read for a mesh; none if they can be read only once, or not at all.
 std::optional<std::string> described_bytes(const fs::path& mesh) {
   std::error_code none;
-  std::vector<fs::path> files;
-  if (fs::is_regular_file(mesh, none)) {
-    files.push_back(mesh);
-    // The points of a .poly file may lie in another one.
-    const fs::path points = fs::path(mesh).replace_extension(".node");
-    if (mesh.extension() == ".poly" && fs::is_regular_file(points, none)) files.push_back(points);
-  } else if (fs::is_directory(mesh, none)) {
-    for (const auto& entry : fs::recursive_directory_iterator(mesh, none))
-      if (entry.is_regular_file(none)) files.push_back(entry.path());
-    std::ranges::sort(files);
-  } else {
-    return std::nullopt;
-  }
+  const std::vector<fs::path> files = io::files_of_mesh(mesh);
+  const bool can_be_read_again =
+      std::ranges::all_of(files, [&none](const fs::path& file) { return fs::is_regular_file(file, none); });
+  if (files.empty() || !can_be_read_again) return std::nullopt;
   std::string text;
   for (const fs::path& file : files)
     text +=

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The options of an import by name: a line for each.
 #include <cellwalk/internal/loading/import_call.h>
+#include <cellwalk/internal/loading/mesher.h>
 
 #include <fmt/format.h>
 
@@ -108,6 +109,15 @@ constexpr Named_option named_options[] = {
 };
 
 }  // namespace
+
+const char* option_of_repair(const Repair_options& options) {
+  const Repair_options usual;
+  if (!options.inside.empty() || options.is_solid) return "--inside";
+  if (options.seam != usual.seam) return "--seam";
+  if (options.weld != usual.weld) return "--weld";
+  if (options.max_move != usual.max_move) return "--max-move";
+  return options.sheets != usual.sheets ? "--sheets" : nullptr;
+}
 
 Import_options import_options(const Import_call& call) {
   Import_options options;

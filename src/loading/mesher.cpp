@@ -11,6 +11,8 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
+#include <string>
 #include <utility>
 
 namespace cellwalk {
@@ -48,7 +50,7 @@ void add_tolerance(const std::string& tolerance, Meshed<3>& meshed) {
   meshed.report["tolerance"] = tolerance;
 }
 
-[[noreturn]] void refuse_option(const char* what) { throw Error(Error_code::usage, what); }
+[[noreturn]] void refuse_option(const std::string& what) { throw Error(Error_code::usage, what); }
 
 /// The bounds that tetrahedra may violate, in words.
 std::string bounds_of(const Tetrahedralize_options& options) {
@@ -169,17 +171,20 @@ Meshed<3> with_tetgen(const Surface_soup& surface, const std::vector<Surface_sou
   tetgen.obstacle_names = options.obstacle_names;
   tetgen.limits = {options.time_limit, options.on_wait};
   const bool may_repair = obstacles.empty() && !options.is_strict;
-  if (!options.repair.inside.empty()) {
-    if (!may_repair) refuse_option("--inside goes neither with --strict nor with --obstacle");
-    return with_repair(surface, options, tetgen);
-  }
+  if (const char* option = option_of_repair(options.repair); option != nullptr && !may_repair)
+    refuse_option(fmt::format("{} goes neither with --strict nor with --obstacle", option));
+  if (!options.repair.inside.empty()) return with_repair(surface, options, tetgen);
   Tetrahedralize_report report;
   Meshed<3> meshed;
+  const auto start = std::chrono::steady_clock::now();
   try {
     meshed.soup = tetrahedralize(surface, obstacles, tetgen, &report);
   } catch (const Error& error) {
     const bool is_imperfect = error.code() == Error_code::input || error.code() == Error_code::not_certified;
     if (!is_imperfect || !may_repair) throw;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    if (elapsed.count() >= options.time_limit) throw;  // for want of time, not for a defect
+    tetgen.limits.seconds -= elapsed.count();
     return with_repair(surface, options, tetgen);
   }
   add_cells(report, report.boundary_facets, tetgen, meshed);
@@ -196,6 +201,9 @@ Meshed<3> with_mesh3(const Surface_soup& surface, const std::vector<Surface_soup
     refuse_option("--quality goes with --mesher tetgen: the cells of Mesh_3 have a bound of 2");
   if (options.keep_obstacles)
     refuse_option("--keep-obstacles goes with --mesher tetgen: Mesh_3 fills no obstacles");
+  if (const char* option = option_of_repair(options.repair))
+    refuse_option(
+        fmt::format("{} goes with --mesher tetgen: Mesh_3 fills closed surfaces only, as they are", option));
   Mesh3_options mesh;
   mesh.cell_size = options.cell_size;
   mesh.facet_distance = options.distance;

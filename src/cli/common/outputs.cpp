@@ -2,6 +2,7 @@
 // The checks of output names against each other and against inputs, and the joint commit.
 #include "outputs.h"
 
+#include <cellwalk/internal/io/mesh_files.h>
 #include <cellwalk/internal/io/output.h>
 #include <cellwalk/internal/ranks/ranks.h>
 #include <cellwalk/kernel/error.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <span>
 #include <utility>
 
 #include "work_log.h"
@@ -55,8 +57,16 @@ bool Named_file::is_within(const Named_file& folder) const {
 
 Outputs::Outputs(const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs)
-    if (!input.empty()) inputs_.emplace_back(input);
+    if (!input.empty()) add_input(input);
   if (const std::string log = Work_log::name(); !log.empty()) add(Named_file(log));
+}
+
+void Outputs::add_input(const std::string& name) {
+  const Named_file input(name);
+  refuse_pipe(input);
+  inputs_.push_back(input);
+  for (const fs::path& file : io::files_of_mesh(name))
+    if (file != name) inputs_.emplace_back(file.string());
 }
 
 void Outputs::refuse_pipe(const Named_file& input) const {
@@ -97,11 +107,12 @@ void Outputs::add(const Named_file& output) {
 }
 
 void Outputs::also_reads(const std::string& name) {
-  const Named_file input(name);
-  refuse_pipe(input);
-  for (const Named_file& output : outputs_) refuse_clash(output, input);
-  for (const Named_file& folder : folder_names_) refuse_replaced(folder, input);
-  inputs_.push_back(input);
+  const std::size_t first = inputs_.size();
+  add_input(name);
+  for (const Named_file& input : std::span(inputs_).subspan(first)) {
+    for (const Named_file& output : outputs_) refuse_clash(output, input);
+    for (const Named_file& folder : folder_names_) refuse_replaced(folder, input);
+  }
 }
 
 io::Atomic_file* Outputs::file(const std::string& name) {

@@ -45,8 +45,8 @@ class Named_file {
 /// The outputs of one command, opened before it starts its work.
 class Outputs {
  public:
-  /// `inputs` are the files that the command reads; empty names are ignored. The log, if there is one, counts
-  /// as an output.
+  /// `inputs` are the files that the command reads, and those that belong to a mesh among them; empty names
+  /// are ignored. The log, if there is one, counts as an output.
   /// \throw Error(usage) if the log is an input
   explicit Outputs(std::initializer_list<std::string> inputs) : Outputs(std::vector<std::string>(inputs)) {}
   explicit Outputs(const std::vector<std::string>& inputs);
@@ -75,6 +75,8 @@ class Outputs {
   void commit(const std::string& summary);
 
  private:
+  /// With the further files of a mesh.
+  void add_input(const std::string& name);
   void refuse_pipe(const Named_file& input) const;
   void refuse_clash(const Named_file& output, const Named_file& input) const;
   void refuse_replaced(const Named_file& folder, const Named_file& input) const;

@@ -144,6 +144,7 @@ void add_deform(CLI::App& app, Action& chosen) {
   command
       ->add_option("--body", options->bodies,
                    "A body that stands in the environment where its file has it; may be given several times")
+      ->allow_extra_args(false)
       ->type_name("FILE");
   add_choice(
       *command, "--at-contact", options->at_contact,

@@ -114,6 +114,7 @@ void add_edit(CLI::App& app, Action& chosen) {
   command
       ->add_option("--body", options->bodies,
                    "A body that stands in the environment where its file has it; may be given several times")
+      ->allow_extra_args(false)
       ->type_name("FILE");
   command
       ->add_option("--report", options->report,

@@ -2,10 +2,13 @@
 // Motions traced by several threads; written and summed up in order.
 #include "pieces.h"
 
+#include <cellwalk/kernel/error.h>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cellwalk::cli {
 namespace {
@@ -24,6 +27,10 @@ double largest_value(const Snapshot<D>& snapshot, double largest_weight) {
     size += high[k] - low[k];
   }
   const double largest = 2 * size * largest_weight;
+  if (!std::isfinite(largest))
+    throw Error(Error_code::input, largest_weight > 1
+                                       ? "weight: products with lengths overflow; give smaller weights"
+                                       : "a sum of lengths may overflow; scale the environment");
   return largest > 0 ? largest : 1;
 }
 

@@ -208,7 +208,9 @@ void add_query(CLI::App& app, Action& chosen) {
       ->add_option("--picture", options->picture,
                    "Draw the motion of a row and what is in its way; in the plane also the cells it passes")
       ->type_name("FILE.png");
-  command->add_option("--row", options->row, "The row to draw or to record, from 0")->type_name("N");
+  command->add_option("--row", options->row, "The row to draw or to record, from 0")
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
   command
       ->add_option(
           "--replay-failure", options->failure,

@@ -185,7 +185,9 @@ class Traced {
       : options_(options), files_(files), ranks_(ranks), environment_(environment) {
     if (options.trace.empty() && options.tally.empty()) return;
     std::optional<double> largest;
-    if (!options.tally.empty()) largest = largest_value(environment.snapshot(), largest_weight(rows));
+    if (!options.tally.empty())
+      largest = naming(options.queries,
+                       [&] { return largest_value(environment.snapshot(), largest_weight(rows)); });
     if (!options.trace.empty()) {
       if (files)
         table_.emplace(*files->trace, std::vector<std::string>{"row", "cell", "length"});

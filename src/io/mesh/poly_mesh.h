@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cellwalk::io {
 
@@ -27,6 +28,9 @@ struct Poly_mesh_files {
 /// files, or a file CASE.foam as ParaView opens it. None if the path is a file of another name.
 /// \throw Error(input) for a folder without such a mesh
 std::optional<std::filesystem::path> poly_mesh_folder(const std::filesystem::path& path);
+
+/// Those that are read and are there.
+std::vector<std::filesystem::path> files_of_poly_mesh(const std::filesystem::path& folder);
 
 /// \throw Error(input) with the file, and the line or byte
 Mesh_file read_poly_mesh(const std::filesystem::path& folder);

@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> file_names{"points", "faces", "owner", "neighbour", "boundary"};
+constexpr std::array<std::string_view, 2> zone_names{"faceZones", "cellZones"};
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -63,7 +64,7 @@ Named_bytes needed(const fs::path& folder, std::string_view name) {
   return loaded(path);
 }
 
-std::optional<Named_bytes> loaded_if_there(const fs::path& folder, const char* name) {
+std::optional<Named_bytes> loaded_if_there(const fs::path& folder, std::string_view name) {
   const fs::path path = with_or_without_gz(folder / name);
   if (!is_there(path)) return std::nullopt;
   return loaded(path);
@@ -90,10 +91,21 @@ std::optional<fs::path> poly_mesh_folder(const fs::path& path) {
        "is a directory without a mesh of OpenFOAM: name a file, or a folder with polyMesh in it");
 }
 
+std::vector<fs::path> files_of_poly_mesh(const fs::path& folder) {
+  std::vector<fs::path> files;
+  const auto add = [&](std::string_view name) {
+    const fs::path file = with_or_without_gz(folder / name);
+    if (is_there(file)) files.push_back(file);
+  };
+  std::ranges::for_each(file_names, add);
+  std::ranges::for_each(zone_names, add);
+  return files;
+}
+
 Mesh_file read_poly_mesh(const fs::path& folder) {
   return parse_poly_mesh({needed(folder, "points"), needed(folder, "faces"), needed(folder, "owner"),
                           needed(folder, "neighbour"), needed(folder, "boundary"),
-                          loaded_if_there(folder, "faceZones"), loaded_if_there(folder, "cellZones")});
+                          loaded_if_there(folder, zone_names[0]), loaded_if_there(folder, zone_names[1])});
 }
 
 }  // namespace cellwalk::io

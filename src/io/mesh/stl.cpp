@@ -131,7 +131,7 @@ Surface_soup parse_stl(const std::string& name, std::string_view bytes, Read_rep
   // Binary files may begin with `solid` too: the size decides, then the presence of bytes that no text has.
   const bool sized = bytes.size() >= header_size;
   if (is_binary_stl(bytes)) return parse_binary(name, bytes, report, body);
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   const bool is_text = bytes.find('\0') == std::string_view::npos;
   if (is_text && first != std::string_view::npos && same_word(bytes.substr(first, 5), "solid"))
     return parse_text(name, bytes, report, body);

@@ -19,7 +19,9 @@ namespace {
 
 class Parser {
  public:
-  Parser(const std::string& name, std::string_view text) : name_(name), text_(text) {}
+  Parser(const std::string& name, std::string_view text) : name_(name), text_(text) {
+    if (text.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
+  }
 
   Planar_domain parse(Read_report& report) {
     std::size_t polygons = 0;

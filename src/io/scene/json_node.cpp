@@ -50,6 +50,7 @@ std::unique_ptr<json> parse_json(const std::string& name, std::string_view text)
           text.substr(0, parse->byte > 0 ? std::min(parse->byte - 1, text.size()) : 0);
       line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
     }
+    if (what.starts_with("[")) what.erase(0, what.find("] ") + 2);
     if (const auto colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
     constexpr std::size_t longest = 200;  // bytes of a reason, which may quote a whole text
     what = "not valid JSON: " + (what.size() > longest ? what.substr(0, longest) + "..." : what);

@@ -31,6 +31,7 @@ Import_call::Value import_value(const Json_node& node) {
   if (node.is_boolean()) return node.boolean();
   if (node.is_string()) return node.string();
   if (node.is_array()) return node.numbers();
+  if (node.is_object()) node.fail("no option of an import takes an object");
   return node.number();
 }
 

@@ -79,7 +79,7 @@ class Repair {
   /// The limit of time is one for all meshes.
   double seconds_left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    constexpr double least = 1;
+    constexpr double least = 1e-3;  // a limit of 0 is none that is allowed
     return std::max(least, mesh_.limits.seconds - elapsed.count());
   }
 
@@ -310,7 +310,8 @@ class Repair {
 void check(const Repair_options& options, const Tetrahedralize_options& mesh) {
   const auto part = [](const char* name, double value) {
     if (!(value >= 0 && value < 1))
-      throw Error(Error_code::usage, fmt::format("repair: {} must be a part of the size, from 0 to 1", name));
+      throw Error(Error_code::usage,
+                  fmt::format("repair: {} must be a part of the size, from 0 to below 1", name));
   };
   part("--seam", options.seam), part("--weld", options.weld), part("--max-move", options.max_move);
   for (const Point<3>& p : options.inside)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Meshes of OpenFOAM in every encoding, judged by volumes and closed cells; broken ones by their messages.
 #include <cellwalk/internal/io/gzip.h>
+#include <cellwalk/internal/io/mesh_files.h>
 #include <cellwalk/io/body_file.h>
 #include <cellwalk/io/mesh_file.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "foam_mesh.h"
@@ -101,6 +103,15 @@ TEST(PolyMesh, IsFoundWhereverItIsNamed) {
                                constant / "polyMesh/faces", constant / "polyMesh/owner", folder / "a.foam"}) {
     SCOPED_TRACE(path);
     EXPECT_EQ(read_mesh(path).report.cells, 7u);
+    const std::vector<fs::path> files = files_of_mesh(path);
+    for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"})
+      EXPECT_EQ(std::count_if(files.begin(), files.end(),
+                              [&](const fs::path& file) {
+                                return fs::equivalent(file, constant / "polyMesh" / name);
+                              }),
+                1)
+          << name;
+    EXPECT_EQ(files.size(), path.filename() == "a.foam" ? 6u : 5u);
   }
   for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"}) {
     const fs::path file = constant / "polyMesh" / name;
@@ -111,13 +122,28 @@ TEST(PolyMesh, IsFoundWhereverItIsNamed) {
   EXPECT_EQ(read_mesh(constant / "polyMesh/points.gz").report.cells, 7u);
   EXPECT_EQ(read_body<3>(folder / "").body.faces.size(), 2u * 35);
 
+  EXPECT_EQ(files_of_mesh(folder / "").size(), 5u);
+  EXPECT_EQ(files_of_mesh(constant / "polyMesh/points.gz").size(), 5u);
+
   const std::string packed = (constant / "polyMesh/faces.gz").string();
   fs::remove(packed);
+  EXPECT_EQ(files_of_mesh(folder / "").size(), 4u);
   EXPECT_EQ(refusal([&] { read_mesh(folder / ""); }),
             with(packed, ".gz", "") + ": is missing, and a mesh of OpenFOAM needs it: copy the whole folder");
   EXPECT_EQ(refusal([&] { read_mesh(constant / "polyMesh/points.gz"); }),
             (constant / "polyMesh/points.gz").string() +
                 ": is one file of OpenFOAM: give the folder polyMesh of a mesh, with all its files");
+}
+
+TEST(PolyMesh, OtherMeshesAreFilesOfTheirOwn) {
+  const Folder folder;
+  const fs::path poly = folder / "a.poly", points = folder / "a.node";
+  std::ofstream(poly) << "0 2 0 0\n";
+  EXPECT_EQ(files_of_mesh(poly), std::vector<fs::path>{poly});
+  std::ofstream(points) << "3 2 0 0\n";
+  EXPECT_EQ(files_of_mesh(poly), (std::vector<fs::path>{poly, points}));
+  EXPECT_EQ(files_of_mesh(folder / "a.off"), std::vector<fs::path>{folder / "a.off"});
+  EXPECT_TRUE(files_of_mesh(folder / "").empty());
 }
 
 TEST(PolyMesh, FoldersWithoutOneAreRefused) {

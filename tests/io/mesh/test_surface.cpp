@@ -175,6 +175,7 @@ TEST(Surface, StlIsReadAsTextAndBinary) {
   EXPECT_EQ(report.format, "STL");
   expect_tetrahedron(parse(ascii_stl("end solid\n"), Surface_format::stl));
   expect_tetrahedron(parse(ascii_stl(""), Surface_format::stl));
+  expect_tetrahedron(parse("\xef\xbb\xbf" + ascii_stl(""), Surface_format::stl));  // a byte order mark
   expect_tetrahedron(parse(binary_stl(), Surface_format::stl, &report));
   EXPECT_EQ(report.format, "STL (binary)");
   parse(binary_stl() + "tail", Surface_format::stl, &report);

@@ -31,6 +31,9 @@ struct Mesher_parts {
 };
 Mesher_parts mesher_parts();
 
+/// The name of an option that has an effect only where a surface is repaired, if it is not at its default.
+const char* option_of_repair(const Repair_options& options);
+
 /// Fills the interior of a closed surface, without the obstacles. A surface that is not closed and manifold,
 /// or that TetGen fails with, is repaired if it has no obstacles.
 /// \throw Error as the meshers; Error(usage) for options of the other mesher, and in a build without them
