@@ -8,7 +8,7 @@ usage: test_pages.py ROOT PROGRAM [--long] [OPTIONAL PARTS THAT ARE MISSING ...]
 - Links lead to files of the repository, and to headings where they have an anchor. docs/README.md leads to all pages.
 - `cellwalk COMMAND --option` anywhere, examples in the help included, names a command and options that its --help knows.
 - A block ```console is run, page by page in one folder: what stands after `$ ` is a command, what follows is what it prints, where a line of
-  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; in the tutorial it is that of data/tutorial.
+  `...` stands for any lines. `$ cat FILE` makes FILE of what follows if it is not there; two tutorials have their files in data.
   `$ export NAME=VALUE` holds for the rest of the page. A block after <!-- needs PART PART --> is left out where
   one of these parts is missing; one after <!-- not run --> always. One after <!-- long --> or <!-- long needs PART -->
   is run with --long, and nothing else then. data/ and examples/ are those of the repository, build/release is the
@@ -34,6 +34,7 @@ CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 FOR_SITE = re.compile(r"<!-- site: .*? -->")  # its links lead to what the site alone has (docs/page_filter.py)
 CONSOLE = re.compile(r"(?:<!-- ([^>]*?) -->\n+)?```console\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"cellwalk ([a-z]\w*)((?: [^`\n|;&<>]*)?)")
+FILES_OF = {"tutorial.md": "data/tutorial", "paper.md": "data/paper"}
 FEWEST = {"links": 60, "options": 15, "commands": 8, "pictures": 2}  # so that a test that finds nothing does not pass
 FEWEST_LONG = {"commands": 10, "pictures": 10}
 FEWEST_TUTORIALS = {"commands": 20, "pictures": 2}
@@ -125,8 +126,8 @@ def prepare(folder, page, root, program):
     (folder / "build" / "release").symlink_to(program.parent)
     (folder / "bin").mkdir()
     (folder / "bin" / "python3").symlink_to(sys.executable)
-    if page.name == "tutorial.md":
-        shutil.copytree(root / "data/tutorial", folder, dirs_exist_ok=True)
+    if page.name in FILES_OF:
+        shutil.copytree(root / FILES_OF[page.name], folder, dirs_exist_ok=True)
 
 
 def pictures_drawn(folder):

@@ -350,7 +350,7 @@ void add_run(CLI::App& app, Action& chosen) {
   add_checkpoint_options(*command, *options, output, force);
   add_examples(*command,
                {"cellwalk run -o hexahedra", "cellwalk run data/vessel.json -o out --steps 100",
-                "cellwalk run -o large --set environment.cells=46 --set bodies[0].count=50",
+                "cellwalk run -o large --set environment.cells=46 --set 'bodies[0].count=50'",
                 "cellwalk run -o long --steps 100000 --checkpoint-every 1000", "cellwalk run --resume long"});
   command->callback([options, command, &chosen] {
     if (options->folder.empty() && options->resume.empty()) throw CLI::RequiredError("--output");

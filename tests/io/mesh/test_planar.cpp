@@ -76,7 +76,8 @@ TEST(Wkt, PolygonsShareTheirPoints) {
 
 TEST(Wkt, HolesHaveAPointStrictlyInside) {
   const Planar_domain square = parse_wkt(
-      "t.wkt", "\xef\xbb\xbfPOLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (1 1, 1 3, 3 3, 3 1, 1 1), (5 5, 7 5, 5 7, 5 5))");
+      "t.wkt",
+      "\xef\xbb\xbfPOLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (1 1, 1 3, 3 3, 3 1, 1 1), (5 5, 7 5, 5 7, 5 5))");
   ASSERT_EQ(square.holes.size(), 2u);
   const auto [x, y] = square.holes[0];
   EXPECT_TRUE(x > 1 && x < 3 && y > 1 && y < 3);

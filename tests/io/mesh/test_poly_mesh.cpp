@@ -105,10 +105,9 @@ TEST(PolyMesh, IsFoundWhereverItIsNamed) {
     EXPECT_EQ(read_mesh(path).report.cells, 7u);
     const std::vector<fs::path> files = files_of_mesh(path);
     for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"})
-      EXPECT_EQ(std::count_if(files.begin(), files.end(),
-                              [&](const fs::path& file) {
-                                return fs::equivalent(file, constant / "polyMesh" / name);
-                              }),
+      EXPECT_EQ(std::count_if(
+                    files.begin(), files.end(),
+                    [&](const fs::path& file) { return fs::equivalent(file, constant / "polyMesh" / name); }),
                 1)
           << name;
     EXPECT_EQ(files.size(), path.filename() == "a.foam" ? 6u : 5u);
