@@ -19,7 +19,7 @@ def progress(observation: dict[str, Any], info: dict[str, Any]) -> float:
     return float(info["gained"]) + float(info["is_success"])
 
 
-def _expect(sort: type, **words: tuple[Any, float, float]) -> None:
+def _expect(sort: Any, **words: tuple[Any, float, float]) -> None:
     for name, (number, least, most) in words.items():
         if not (isinstance(number, sort) and least <= number <= most and number < math.inf):
             kind = "an integer" if sort is Integral else "a finite number"
@@ -76,7 +76,7 @@ class CatheterEnv(Env):  # type: ignore[misc]
         self._is_over, names, given = True, self.lumen.names, {**(options or {})}
         target, turn = given.get("target", 0), given.get("turn", 0)
         target = names.index(target) if target in names else target
-        if given.keys() - {"target", "turn"} or target not in range(len(names)) or not (isinstance(turn, Real) and -180 <= turn <= 180):
+        if given.keys() - {"target", "turn"} or target not in range(len(names)) or not (isinstance(turn, Real) and -180 <= float(turn) <= 180):
             raise UsageError(f"reset(): options are {options}: target, one of {names} or its number, and turn, from -180 to 180, are known")
         super().reset(seed=seed)
         drawn = int(self.np_random.integers(len(names))), float(self.np_random.uniform(-180.0, 180.0))
