@@ -103,8 +103,8 @@ TEST_F(Meshers, EndWhereTheirTimeIsUp) {
                   "-o", "e.ovm"},
                  {"cube.off: Mesh_3 did not end within 0.5 s, the limit of time; "});
   // It is no defect to be repaired.
-  expect_failure(4, {"import", "cube.off", "--cell-size", "0.01", "--time-limit", "0.3", "-o", "e.ovm"},
-                 {"cube.off: TetGen did not end within 0.3 s, the limit of time; "});
+  expect_failure(4, {"import", "cube.off", "--time-limit", "1e-3", "-o", "e.ovm"},
+                 {"cube.off: TetGen did not end within 0.001 s, the limit of time; "});
   expect_failure(2, {"import", "cube.off", "--time-limit", "0", "-o", "e.ovm"}, {"--time-limit"});
 }
 
