@@ -45,9 +45,10 @@ void add_repair_options(CLI::App& command, Mesher_options& options, std::string&
             for (const std::string& value : values) {
               const bool is_word = value == "solid" || value == "auto";
               if (is_word && values.size() > 1)
-                throw Error(Error_code::usage,
-                            fmt::format("--inside {}: is given with another one: give {} alone, or points",
-                                        value, value));
+                throw Error(
+                    Error_code::usage,
+                    fmt::format("--inside {} goes with no other --inside: give it alone, or give points",
+                                value));
               if (value == "solid")
                 options.repair.is_solid = true;
               else if (value != "auto")

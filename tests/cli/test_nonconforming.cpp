@@ -13,7 +13,8 @@ const char* const hanging_off =
 
 const std::vector<std::string> refusal{
     "hanging.off: cells 0 and 1 share a part of a line at (2.000000, 0.500000) but no facet, the first of 2 "
-    "such pairs: divide them by `cellwalk import` without --strict and --conform off, or keep duplicates "
+    "such pairs: divide them by `cellwalk import`, with neither --strict nor --conform off, or keep "
+    "duplicates "
     "(--duplicates keep) to have walls there"};
 
 using Nonconforming = Program;

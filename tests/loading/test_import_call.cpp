@@ -10,6 +10,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "io/mesh/foam_mesh.h"
+
 namespace cellwalk {
 namespace {
 
@@ -87,27 +89,16 @@ TEST_F(ImportCalls, AreMadeAgainForOtherContentOrOptions) {
   EXPECT_TRUE(contains(said(), "from the cache")) << "as at first";
 }
 
-/// Two tetrahedra, as OpenFOAM has them.
-void write_foam(const fs::path& folder, const std::string& patch) {
-  const std::pair<const char*, std::string> files[] = {
-      {"points", "5((0 0 0)(1 0 0)(0 1 0)(0 0 1)(1 1 1))"},
-      {"faces", "7(3(1 2 3)3(0 2 1)3(0 1 3)3(0 3 2)3(1 2 4)3(2 3 4)3(3 1 4))"},
-      {"owner", "7(0 0 0 0 1 1 1)"},
-      {"neighbour", "1(1)"},
-      {"boundary", "1(" + patch + " {nFaces 6; startFace 1;})"}};
-  for (const auto& [name, text] : files)
-    std::ofstream(folder / name) << "FoamFile {format ascii; class faceList;}\n" << text << "\n";
-}
-
 TEST_F(ImportCalls, AreMadeAgainForOtherContentBesideTheFile) {
-  fs::create_directory(folder_ / "polyMesh");
-  std::ofstream(folder_ / "case.foam") << "";
+  test::Foam_mesh mesh = test::foam_block(2);
+  write("case.foam", "");
   std::size_t count = 0;
   for (const char* name : {"polyMesh", "polyMesh/points", "case.foam"}) {
     SCOPED_TRACE(name);
     call_.file = folder_ / name;
-    for (const char* patch : {"wall", "inlet"}) {
-      write_foam(folder_ / "polyMesh", patch);
+    for (const char* patch : {"inlet", "mouth"}) {
+      mesh.patches[0].name = patch;
+      test::write_foam(folder_ / "polyMesh", test::Foam_writer().files(mesh));
       EXPECT_TRUE(contains(import_or_reopen(call_, {}).lines.front(), "kept for the next run"));
       EXPECT_EQ(kept(), ++count);
       EXPECT_TRUE(contains(import_or_reopen(call_, {}).lines.front(), "from the cache"));

@@ -103,7 +103,7 @@ void refuse_overlapping(const Facing_facets& facets) {
           " share a part of a " + (D == 2 ? "line" : "plane") + " at " + describe_place(facets.place) +
           " but no facet" +
           (facets.pairs == 1 ? "" : ", the first of " + std::to_string(facets.pairs) + " such pairs") +
-          ": divide them by `cellwalk import` without --strict and --conform off, or keep duplicates "
+          ": divide them by `cellwalk import`, with neither --strict nor --conform off, or keep duplicates "
           "(--duplicates keep) to have walls there");
 }
 

@@ -79,7 +79,7 @@ class Repair {
   /// The limit of time is one for all meshes.
   double seconds_left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    constexpr double least = 1e-3;  // a limit of 0 is none that is allowed
+    constexpr double least = 1e-3;  // limits are greater than 0
     return std::max(least, mesh_.limits.seconds - elapsed.count());
   }
 
