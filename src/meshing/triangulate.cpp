@@ -17,14 +17,14 @@
 namespace cellwalk {
 namespace {
 
-enum class Region { inside, outside, hole };
+enum class Face_kind { inside, outside, hole };
 
 constexpr std::uint32_t unnumbered = 0xffffffffu;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using Face_base =
-    CGAL::Triangulation_face_base_with_info_2<Region, Kernel,
+    CGAL::Triangulation_face_base_with_info_2<Face_kind, Kernel,
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Planar_triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel,
@@ -98,16 +98,16 @@ Planar_triangulation constrain(const Planar_domain& domain, Triangulate_report& 
 }
 
 /// Marks all faces connected with a face through edges that are not segments.
-void mark(Planar_triangulation::Face_handle start, Region region) {
+void mark(Planar_triangulation::Face_handle start, Face_kind kind) {
   std::vector<Planar_triangulation::Face_handle> stack{start};
-  start->info() = region;
+  start->info() = kind;
   while (!stack.empty()) {
     const auto face = stack.back();
     stack.pop_back();
     for (int i = 0; i < 3; ++i) {
       const auto next = face->neighbor(i);
-      if (face->is_constrained(i) || next->info() == region) continue;
-      next->info() = region;
+      if (face->is_constrained(i) || next->info() == kind) continue;
+      next->info() = kind;
       stack.push_back(next);
     }
   }
@@ -123,22 +123,22 @@ void mark_holes(Planar_triangulation& triangulation, const Planar_domain& domain
     if (type == Planar_triangulation::VERTEX ||
         (type == Planar_triangulation::EDGE && face->is_constrained(i)))
       refuse("the point of hole " + std::to_string(h) + " lies on a segment; move it inside the hole");
-    if (type == Planar_triangulation::OUTSIDE_CONVEX_HULL || face->info() == Region::outside)
+    if (type == Planar_triangulation::OUTSIDE_CONVEX_HULL || face->info() == Face_kind::outside)
       ++report.outer_holes;
-    else if (face->info() == Region::inside)
-      mark(face, Region::hole);
+    else if (face->info() == Face_kind::inside)
+      mark(face, Face_kind::hole);
   }
 }
 
 Cell_soup<2> collect(Planar_triangulation& triangulation, bool keep_holes, Triangulate_report& report) {
   Cell_soup<2> soup;
   std::size_t free_cells = 0;
-  const auto is_kept = [&](Region region) {
-    return region == Region::inside || (keep_holes && region == Region::hole);
+  const auto is_kept = [&](Face_kind kind) {
+    return kind == Face_kind::inside || (keep_holes && kind == Face_kind::hole);
   };
   for (const auto& face : triangulation.finite_face_handles()) {
     if (!is_kept(face->info())) continue;
-    const bool solid = face->info() == Region::hole;
+    const bool solid = face->info() == Face_kind::hole;
     std::array<std::uint32_t, 3> index;
     for (int i = 0; i < 3; ++i) {
       auto& number = face->vertex(i)->info();
@@ -151,7 +151,7 @@ Cell_soup<2> collect(Planar_triangulation& triangulation, bool keep_holes, Trian
     for (int i = 0; i < 3; ++i) {
       const bool wall = face->is_constrained((i + 2) % 3);  // the edge opposite that vertex
       soup.add_facet({index[i], index[(i + 1) % 3]}, wall || solid);
-      report.walls += wall && !solid && face->neighbor((i + 2) % 3)->info() == Region::inside;
+      report.walls += wall && !solid && face->neighbor((i + 2) % 3)->info() == Face_kind::inside;
     }
     soup.end_cell(solid);
     ++(solid ? report.solid_cells : free_cells);
@@ -170,8 +170,8 @@ Cell_soup<2> triangulate(const Planar_domain& domain, const Triangulate_options&
   r = {};
   Planar_triangulation triangulation = constrain(domain, r);
   for (const auto& v : triangulation.finite_vertex_handles()) v->info() = unnumbered;
-  for (const auto& face : triangulation.all_face_handles()) face->info() = Region::inside;
-  mark(triangulation.infinite_face(), Region::outside);
+  for (const auto& face : triangulation.all_face_handles()) face->info() = Face_kind::inside;
+  mark(triangulation.infinite_face(), Face_kind::outside);
   mark_holes(triangulation, domain, r);
   return collect(triangulation, options.keep_holes, r);
 }

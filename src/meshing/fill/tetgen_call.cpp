@@ -53,23 +53,24 @@ std::string switches(const Tetrahedralize_options& options, int scale, const cha
 /// \throw Error(not_certified) if there are several
 std::vector<std::array<std::int32_t, 4>> neighbours_of(
     const std::vector<std::array<std::uint32_t, 4>>& tetrahedra) {
-  struct Side {
+  struct Facet_side {
     Triangle triangle;
     std::int32_t tetrahedron;
     int opposite;
   };
-  std::vector<Side> sides;
+  std::vector<Facet_side> sides;
   sides.reserve(4 * tetrahedra.size());
   for (std::size_t t = 0; t < tetrahedra.size(); ++t)
     for (int i = 0; i < 4; ++i)
       sides.push_back({opposite(tetrahedra[t], i), static_cast<std::int32_t>(t), i});
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.triangle < b.triangle; });
+  std::sort(sides.begin(), sides.end(),
+            [](const Facet_side& a, const Facet_side& b) { return a.triangle < b.triangle; });
   std::vector<std::array<std::int32_t, 4>> neighbours(tetrahedra.size(), {-1, -1, -1, -1});
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
     for (j = i; j < sides.size() && sides[j].triangle == sides[i].triangle;) ++j;
     if (j - i > 2) refuse_result();
     if (j - i < 2) continue;
-    const Side &a = sides[i], &b = sides[i + 1];
+    const Facet_side &a = sides[i], &b = sides[i + 1];
     neighbours[a.tetrahedron][a.opposite] = b.tetrahedron;
     neighbours[b.tetrahedron][b.opposite] = a.tetrahedron;
   }

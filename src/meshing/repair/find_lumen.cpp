@@ -22,14 +22,14 @@ using Triangles = std::vector<K::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<K, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<K, Primitive>>;
 
-constexpr std::size_t samples = 2000, rays_of_seed = 200, most_seeds = 500;
+constexpr std::size_t samples_of_surface = 2000, rays_of_seed = 200, most_seeds = 500;
 /// A wall is thick if this part of the rays meets it again, this many times farther than it is thick.
 constexpr double enough = 0.25, farther = 3;
 /// Around a lumen, this part of the rays from its middle meets the wall. Measured: 0.86 to 1 for thick tubes,
 /// 0.3 to 0.82 for channels that bend back and for plates that face each other.
 constexpr double closed = 0.85;
 /// Where two solids touch, there is no wall: from either side a ray meets the other one at once.
-constexpr double touching = 1e-11;  // of the largest coordinate
+constexpr double no_wall = 1e-11;  // of the largest coordinate
 
 double distance_along(const Tree& tree, const K::Ray_3& ray, const K::Triangle_3* own) {
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -71,8 +71,8 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
   Random random(1);
   std::vector<std::pair<Point<3>, double>> seeds;  // and the distance from the surface
   std::size_t apart = 0;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double at = (static_cast<double>(i) + random.real()) / samples * total;
+  for (std::size_t i = 0; i < samples_of_surface; ++i) {
+    const double at = (static_cast<double>(i) + random.real()) / samples_of_surface * total;
     const std::size_t f = std::min<std::size_t>(
         std::upper_bound(areas.begin(), areas.end(), at) - areas.begin(), triangles.size() - 1);
     if (normals[f] == Vector<3>{}) continue;
@@ -83,7 +83,7 @@ std::optional<Point<3>> find_lumen(const Facets& given) {
     const K::Vector_3 normal(normals[f][0], normals[f][1], normals[f][2]);
     const double inwards = distance_along(tree, K::Ray_3(origin, -normal), &triangles[f]);
     const double outwards = distance_along(tree, K::Ray_3(origin, normal), &triangles[f]);
-    if (std::min(inwards, outwards) <= touching) continue;
+    if (std::min(inwards, outwards) <= no_wall) continue;
     ++apart;
     if (!std::isfinite(outwards) || !(outwards > farther * inwards)) continue;
     const K::Point_3 middle = origin + 0.5 * outwards * normal;
