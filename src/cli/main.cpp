@@ -158,13 +158,19 @@ int fail(Ranks& ranks, Error_code code, const std::string& message) {
   return ranks.is_first() ? static_cast<int>(code) : EXIT_SUCCESS;
 }
 
+/// As far as the command line was read: "cellwalk generate hexes".
+std::string command_of(const CLI::App& app) {
+  const auto below = app.get_subcommands();
+  return below.empty() ? app.get_name() : app.get_name() + " " + command_of(*below.front());
+}
+
 /// The error in a command line. An unknown word explains more than an argument that is missing because of it.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = app.remaining(true);
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   const std::string message =
       missing && !unknown.empty() ? unknown.front() + " is not known here" : error.what();
-  return message + "; see cellwalk --help";
+  return message + "; see " + command_of(app) + " --help";
 }
 
 /// Refuses empty words, which come from unset variables of scripts; no command accepts one. Returns an empty

@@ -12,7 +12,7 @@ const char* const hanging_off =
     "OFF\n8 3 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n2 1 0\n3 0 0\n3 1 0\n3 2 0\n4 0 1 2 3\n4 1 5 6 4\n4 4 6 7 2\n";
 
 const std::vector<std::string> refusal{
-    "hanging.off: cells 0 and 1 share a part of a line at (2.000000, 0.500000) but no facet, the first of 2 "
+    "hanging.off: cells 0 and 1 share a part of a line at (2, 0.5) but no facet, the first of 2 "
     "such pairs: divide them by `cellwalk import`, with neither --strict nor --conform off, or keep "
     "duplicates "
     "(--duplicates keep) to have walls there"};
@@ -94,7 +94,7 @@ TEST_F(Nonconforming, GapsOfRoundingAreRefusedClosedOrNoted) {
       "OFF\n8 2 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n2.0000000000000004 1 0\n3 1 0\n3 2 0\n2.0000000000000004 2 0\n"
       "4 0 1 2 3\n4 4 5 6 7\n");
   expect_failure(4, {"import", "gap.off", "-o", "env.ovm"},
-                 {"cells 0 and 1 have facets that face each other at (2.000000, 1.500000) but do not touch",
+                 {"cells 0 and 1 have facets that face each other at (2, 1.5) but do not touch",
                   "--conform 1e-9", "--conform off"});
   const std::string said =
       succeed({"import", "gap.off", "-o", "env.ovm", "--json", "report.json", "--conform", "off"});

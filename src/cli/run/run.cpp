@@ -330,9 +330,9 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--steps", options->steps, "Run so many steps, whatever the scene says")
       ->type_name("N")
       ->check(whole_number(1, 100000000));
-  command->add_option("--threads", options->threads, "Use at most so many threads; the results are the same")
+  command->add_option("--threads", options->threads, "Threads; 0: all. The results do not depend on it")
       ->type_name("N")
-      ->check(whole_number(1, 1024));
+      ->check(whole_number(0, 1024));
   add_choice(
       *command, "--sweep", options->body.sweep.sweep,
       {{sweep_names[0], Sweep::three_segments},

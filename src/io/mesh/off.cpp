@@ -81,6 +81,7 @@ Surface_soup parse_binary(const std::string& name, std::string_view data, const 
       soup.facets.push_back(std::move(loop));
     in.skip(std::size_t{4} * in.take<std::uint32_t>("the number of colours of a facet"));
   }
+  if (in.left() > 0) report.notes.push_back(fmt::format("{} bytes after the last facet ignored", in.left()));
   return soup;
 }
 
@@ -135,6 +136,9 @@ Surface_soup parse_off(const std::string& name, std::string_view bytes, Read_rep
   if (degenerate > 0)
     report.notes.push_back(
         fmt::format("{} facets of fewer than {} vertices ignored", degenerate, body ? 2 : 3));
+  std::size_t further = 0;
+  while (in.next_line()) ++further;
+  if (further > 0) report.notes.push_back(fmt::format("{} lines after the last facet ignored", further));
   return soup;
 }
 

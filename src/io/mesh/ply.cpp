@@ -25,6 +25,8 @@ class Source {
   virtual double next(Ply_type type, const char* what) = 0;
   /// A bound of the number of remaining values.
   virtual std::size_t left() const = 0;
+  /// What is left at the end: "3 lines"; empty if nothing is.
+  virtual std::string rest() = 0;
   [[noreturn]] virtual void fail(const std::string& what) const = 0;
 };
 
@@ -42,6 +44,11 @@ class Text_source : public Source {
     return *value;
   }
   std::size_t left() const override { return in_.rest().size() + in_.remaining().size(); }
+  std::string rest() override {
+    std::size_t lines = in_.at_line_end() ? 0 : 1;
+    while (in_.next_line()) ++lines;
+    return lines > 0 ? fmt::format("{} lines", lines) : "";
+  }
   [[noreturn]] void fail(const std::string& what) const override {
     io::fail(name_, header_lines_ + in_.line(), what);
   }
@@ -79,6 +86,7 @@ class Binary_source : public Source {
     return in_.take<double>(what);
   }
   std::size_t left() const override { return in_.left(); }
+  std::string rest() override { return left() > 0 ? fmt::format("{} bytes", left()) : ""; }
   [[noreturn]] void fail(const std::string& what) const override { in_.fail(what); }
 
  private:
@@ -108,6 +116,8 @@ class Ply_reader {
         if (v >= soup_.points.size())
           in_->fail(fmt::format("facet {} names vertex {}, of {}", f, v, soup_.points.size()));
     if (body_) check_edges();
+    if (const std::string rest = in_->rest(); !rest.empty())
+      report.notes.push_back(fmt::format("{} after the last element ignored", rest));
     return std::move(soup_);
   }
 

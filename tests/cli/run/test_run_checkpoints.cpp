@@ -147,8 +147,8 @@ TEST_F(Checkpoints, AnotherRunDoesNotGoOn) {
   expect_refusal(2, {"--sweep", "faces"}, message("another --sweep"));
   expect_refusal(2, {"--record", "trace"}, message("another --record"));
   expect_refusal(2, {"--json", "report.json"}, message("another --json"));
-  expect_refusal(2, {"-o", "out"}, "--output excludes --resume; see cellwalk --help");
-  expect_refusal(2, {"--force"}, "--force excludes --resume; see cellwalk --help");
+  expect_refusal(2, {"-o", "out"}, "--output excludes --resume; see cellwalk run --help");
+  expect_refusal(2, {"--force"}, "--force excludes --resume; see cellwalk run --help");
   // The scene may be gone, or another one now: the run goes on with that with which it began.
   write("same.json", kept_scene);
   write("scene.json", "{}");

@@ -183,10 +183,9 @@ TEST(Certify, RefusesFalseGluings) {
 TEST(Certify, RefusesDuplicateVerticesUnlessAllowed) {
   Cell_soup<3> soup = cube().soup();
   append(soup, moved(cube(), {2, 0, 0}).soup(), false);
-  EXPECT_EQ(
-      refusal_of(soup),
-      "vertices 1 (of cell 0) and 8 (of cell 1) lie in the same place (2.000000, 0.000000, 0.000000): merge "
-      "them, or keep duplicate vertices");
+  EXPECT_EQ(refusal_of(soup),
+            "vertices 1 (of cell 0) and 8 (of cell 1) lie in the same place (2, 0, 0): merge "
+            "them, or keep duplicate vertices");
   const Certificate c = certificate_of(soup, true);
   EXPECT_EQ(c.components, 2u);
   EXPECT_EQ(c.vertices, 16u);

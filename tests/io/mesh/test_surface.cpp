@@ -98,9 +98,30 @@ TEST(Surface, OffIsReadAsBinaryToo) {
   Read_report report;
   expect_tetrahedron(parse(bytes, Surface_format::off, &report));
   EXPECT_EQ(report.format, "OFF (binary)");
+  EXPECT_TRUE(report.notes.empty());
+  parse(bytes + "12345", Surface_format::off, &report);
+  EXPECT_EQ(report.notes, (std::vector<std::string>{"5 bytes after the last facet ignored"}));
   EXPECT_EQ(refusal([&] { parse(bytes.substr(0, 50), Surface_format::off); }),
             "t: the file ends where a vertex should be: it is cut short");
   EXPECT_GE(refused_truncations(bytes, [](const std::string& t) { parse(t, Surface_format::off); }), 20);
+}
+
+/// A file whose header announces fewer facets than it holds would lose them, and walls with them, unnoticed.
+TEST(Surface, LinesThatTheHeaderDoesNotCountAreNoted) {
+  const auto notes = [](const std::string& text, Surface_format format) {
+    Read_report report;
+    parse(text, format, &report);
+    return report.notes;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(notes(with(off_text, "4 4 0", "4 2 0"), Surface_format::off),
+            (Lines{"2 lines after the last facet ignored"}));
+  EXPECT_EQ(notes(std::string(off_text) + "\n# the end\n \n", Surface_format::off), Lines{});
+  EXPECT_EQ(notes(with(ply_text, "face 4", "face 2"), Surface_format::ply),
+            (Lines{"2 lines after the last element ignored"}));
+  EXPECT_EQ(notes(with(ply_text, "3 2 0 3\n", "3 2 0 3 7"), Surface_format::ply),
+            (Lines{"1 lines after the last element ignored"}));
+  EXPECT_EQ(notes(std::string(ply_text) + " \n\n", Surface_format::ply), Lines{});
 }
 
 TEST(Surface, OffIsRefusedWithFileAndLine) {
@@ -228,7 +249,11 @@ TEST(Surface, PlyIsRead) {
     big_endian.push_back('\3');
     for (std::uint32_t v : loop) big_endian.append(1, '\0').push_back(static_cast<char>(v));
   }
-  expect_tetrahedron(parse(big_endian, Surface_format::ply));
+  Read_report report;
+  expect_tetrahedron(parse(big_endian, Surface_format::ply, &report));
+  EXPECT_TRUE(report.notes.empty());
+  parse(big_endian + "12345", Surface_format::ply, &report);
+  EXPECT_EQ(report.notes, (std::vector<std::string>{"5 bytes after the last element ignored"}));
 }
 
 TEST(Surface, StripsOfPlyAreTriangles) {
