@@ -32,8 +32,15 @@ Wall_distance distance_of_walls(const std::vector<Point<3>>& points, std::span<c
   Tree tree(triangles.begin(), triangles.end());
   tree.accelerate_distance_queries();
   Wall_distance result;
+  const auto project = K().construct_projected_point_3_object();
+  auto nearest = triangles.cbegin();
   const auto visit = [&](const Point<3>& p) {
-    const double distance = std::sqrt(tree.squared_distance(to_cgal(p)));
+    const K::Point_3 place = to_cgal(p);
+    // Mostly the triangle that was nearest to the place before is near enough.
+    if (std::sqrt(CGAL::squared_distance(place, project(*nearest, place))) <= result.most) return;
+    const auto [closest, triangle] = tree.closest_point_and_primitive(place);
+    nearest = triangle;
+    const double distance = std::sqrt(CGAL::squared_distance(place, closest));
     if (distance > result.most) result = {distance, p};
   };
   std::vector<bool> is_seen(points.size(), false);
