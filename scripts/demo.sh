@@ -26,7 +26,7 @@ build() {
   cmake --build --preset demo --parallel
 }
 
-# The picture needs no meshers, which take a third of the time: they come afterwards.
+# The picture needs no meshers, which take a quarter of the time: they come afterwards.
 meshers=OFF
 if grep -qs "^CELLWALK_WITH_MESHING:BOOL=ON" build/demo/CMakeCache.txt; then meshers=ON; fi
 echo "demo: building build/demo/cellwalk (a few minutes the first time)"
