@@ -137,7 +137,8 @@ Cell_soup<2> torn_squares() {
 }
 
 TEST(Environment, RefusesMergesOrKeepsDuplicatePoints) {
-  expect_refused(torn_squares(), {}, Error_code::not_certified, "points 1 and 4 lie in the same place (1.0");
+  expect_refused(torn_squares(), {}, Error_code::not_certified,
+                 "points 1 and 4 lie in the same place (1, 0)");
 
   Build_report report;
   Environment<2> merged =
