@@ -6,8 +6,8 @@
 #   experiments/13_endurance/run.sh [--quick] [--counts] [--out DIR] [--build DIR] [--no-build] [--threads N]
 #                                   [--walks N] [--sweeps N] [--membrane-sweeps N] [--thick-sweeps N]
 #
-# The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise hours on one core. --walks N and the others: so
-# many of them instead; 0 for none.
+# The options are explained in experiments/common/run_options.sh. --quick: seconds; otherwise about an hour on one core. --walks N and the
+# others: so many of them instead; 0 for none.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
