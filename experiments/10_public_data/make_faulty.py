@@ -72,6 +72,10 @@ def main():
         add("surfaces", name, text)
     for name, text in meshes():
         add("cells", name, text)
+    # In the open cube, doubled and turned: through the open side, and back through a wall.
+    line = [(-2, 2, 3), (-2, 2, 2), (-2, 2, 2), (-0.5, 2, 2), (-2, 2, 1), (-2, 2, -1), (-2, 2, -3), (3, 2, -3), (3, 2, 2), (-2, 2, 2.5)]
+    states = "T= 0\n  X= 0 0 0 1 0 0\nT= 1\n  X= " + " ".join(str(x) for p in line for x in p) + "\n"
+    add("end states", "open.scn.reference", states, vessel="open.off", turns=[["z", 90]], scale=2, radius=1.5, contact_distance=0.5)
     nodes = f"1 {len(CUBE)}\n" + "".join(f"{i + 1} {x}.0 {y}.0 {z}.0\n" for i, (x, y, z) in enumerate(CUBE))
     (folder / "node_cube.dat").write_text(nodes)
     add("cells", "elem_cube.dat", f"1 {len(TETRAHEDRA)}\n" + "".join(f"{i + 1} " + " ".join(str(v + 1) for v in t) + " 1\n" for i, t in enumerate(TETRAHEDRA)),

@@ -24,6 +24,7 @@ if $quick; then
 elif [ -n "${CELLWALK_TEST_DATA:-}" ]; then
   folders+=("$CELLWALK_TEST_DATA")
 fi
+"$python" experiments/10_public_data/end_states.py "$build/cellwalk" "$out" "${folders[@]}" "${options[@]}"
 if ! $counts; then options+=(--times); fi
 "$python" experiments/10_public_data/audit.py "$build/cellwalk" "$out" "${folders[@]}" "${options[@]}"
 "$python" experiments/10_public_data/summarize.py "$out"

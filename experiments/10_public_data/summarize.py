@@ -26,6 +26,13 @@ def group_table(rows, imports):
     return table(heads, lines, 1)
 
 
+def state_table(rows):
+    heads = ["scene", "vessel", "edges", "meet the surface", "nearest", "contact distance", "radius", "nearer than the radius", "free", "through a cap",
+             "outside", "close"]
+    keys = ["edges", "meet_surface", "nearest", "contact_distance", "radius", "nearer_than_radius", "free", "contact", "outside", "close"]
+    return table(heads, [[f'`{r["name"]}`', f'`{r["vessel"]}`', *(r[k] for k in keys)] for r in rows], 2)
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -39,6 +46,8 @@ def main():
         strict, repaired = (sum(r[c] == "imported" for r in some) for c in ("strict", "repaired"))
         text += (f"\n## {TITLES[group]}\n\n{len(some)} files: {faulty} with faults; {strict} imported with `--strict`, {repaired} without.\n\n"
                  + group_table(some, imports))
+    if (folder / "end_states.csv").exists():
+        text += "\n## End states of catheters\n\n" + state_table(read_rows(folder / "end_states.csv"))
     (folder / "tables.md").write_text(text, encoding="utf-8")
 
 

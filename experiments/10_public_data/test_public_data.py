@@ -37,13 +37,19 @@ FAULTS = {
 
 class PublicData(quick_case.QuickCase):
     experiment = HERE
-    expected = ["audit.csv"]
+    expected = ["audit.csv", "end_states.csv"]
 
     def test_faults_are_those_that_were_made(self):
         faults = {r["name"]: r["faults"] for r in read_rows(self.out / "audit.csv")}
         self.assertEqual(FAULTS, {name: faults[name] for name in FAULTS})
         for name in ("crossing.off", "overlapping.off", "folded.off"):
             self.assertRegex(faults[name], r"^crossing pairs [1-9]\d*$")
+
+    def test_an_end_state_is_judged_where_its_scene_has_it(self):
+        [row] = read_rows(self.out / "end_states.csv")
+        found = {key: row[key] for key in ("edges", "meet_surface", "nearest", "nearer_than_radius", "free", "contact", "outside")}
+        self.assertEqual({"edges": "8", "meet_surface": "1", "nearest": "0.0000", "nearer_than_radius": "4", "free": "3", "contact": "1",
+                          "outside": "4"}, found)
 
 
 class Crossings(unittest.TestCase):

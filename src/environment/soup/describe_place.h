@@ -18,8 +18,8 @@ inline std::string describe_place(std::span<const double> p) {
   std::string text = "(";
   for (std::size_t i = 0; i < p.size(); ++i) {
     std::array<char, 32> coordinate;  // sign, digits, point and exponent
-    const auto end = std::to_chars(coordinate.data(), coordinate.data() + coordinate.size(), p[i],
-                                   std::chars_format::general, digits);
+    const auto end = std::to_chars(coordinate.data(), coordinate.data() + coordinate.size(), p[i] + 0.0,
+                                   std::chars_format::general, digits);  // -0 as 0
     text.append(i ? ", " : "").append(coordinate.data(), end.ptr);
   }
   return text + ")";
