@@ -22,7 +22,8 @@ Event_time<D> exit_time(const Cell_view<D>& cell, const Point<D>& a, const Point
     const auto time = Event_time<D>::root_of(side);
     if (!first || time < *first) first = time;
   }
-  return *first;
+  // Of cells that somebody forged in a compiled file, b may lie outside of none of these planes.
+  return first ? *first : Event_time<D>(1.0);
 }
 
 }  // namespace cellwalk::detail
