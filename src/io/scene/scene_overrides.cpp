@@ -33,10 +33,15 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-/// The value at a key such as `bodies[0].count`.
-json& at_key(json& document, std::string_view key, const std::string& change) {
+[[noreturn]] void refuse_depth(const std::string& change) {
+  refuse(change, fmt::format("more than {} lists and objects within each other", deepest_nesting));
+}
+
+/// The place at a key such as `bodies[0].count` of a value that is as deep as said.
+json& at_key(json& document, std::string_view key, int depth, const std::string& change) {
   json* here = &document;
   while (!key.empty()) {
+    if (++depth > deepest_nesting) refuse_depth(change);
     if (key.front() == '[') {
       const std::size_t end = key.find(']');
       std::size_t index = 0;
@@ -73,15 +78,16 @@ std::string change_scene(const std::string& name, std::string_view text,
     if (equals == std::string::npos || equals == 0) refuse(change, "no key");
     if (!is_utf8(change)) refuse("a change", "is not written in UTF-8");
     const std::string value = change.substr(equals + 1);
+    int deepest = 0;
     const auto watch = [&](int depth, json::parse_event_t, json&) {
-      if (depth > deepest_nesting)
-        refuse(change, fmt::format("more than {} lists and objects within each other", deepest_nesting));
+      deepest = std::max(deepest, depth);
+      if (deepest > deepest_nesting) refuse_depth(change);
       return true;
     };
     constexpr bool throws = false;
     json parsed = json::parse(value, watch, throws);
-    at_key(*document, std::string_view(change).substr(0, equals), change) =
-        parsed.is_discarded() ? json(value) : std::move(parsed);
+    if (parsed.is_discarded()) parsed = value, deepest = 0;
+    at_key(*document, std::string_view(change).substr(0, equals), deepest, change) = std::move(parsed);
   }
   return document->dump(2);
 }

@@ -38,8 +38,21 @@ TEST(SceneOverrides, ReplaceValues) {
       << "one after the other";
 }
 
+/// A key of many names.
+std::string key_of(std::size_t names) {
+  std::string key = "a";
+  while (--names > 0) key += ".a";
+  return key;
+}
+
+TEST(SceneOverrides, MayBeAsDeepAsAFile) {
+  const std::string changed = io::change_scene("in", "{}", std::vector{key_of(63) + "=[1]"});
+  EXPECT_EQ(io::change_scene("in", changed, {}), changed);
+}
+
 TEST(SceneOverrides, AreRefusedWhereTheyMakeNoSense) {
   const std::string nested = "list=" + std::string(100000, '[');
+  const std::string deep_key = key_of(100000) + "=1", deep_sum = key_of(63) + "=[[1]]";
   const std::pair<const char*, const char*> refusals[] = {
       {"steps", "steps: no key"},
       {"=5", "=5: no key"},
@@ -47,6 +60,10 @@ TEST(SceneOverrides, AreRefusedWhereTheyMakeNoSense) {
       {"a\nb", "a?b: no key"},
       {nested.c_str(),
        "list=[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[...: more than 64 lists and objects within each other"},
+      {deep_key.c_str(),
+       "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a....: more than 64 lists and objects within each other"},
+      {deep_sum.c_str(),
+       "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a....: more than 64 lists and objects within each other"},
       {"bodies[2].count=1", "bodies[2].count=1: there is no element 2"},
       {"steps[0]=1", "steps[0]=1: there is no element 0"},
       {"bodies[1=1", "bodies[1=1: ] is missing"},
