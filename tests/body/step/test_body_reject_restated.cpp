@@ -49,13 +49,16 @@ class Restated_body {
     if (tried.answer.stays()) return tried.answer;
     particles_[vertex] = tried.to;
     for (const auto& [edge, chain] : tried.chains)
-      if (sweep == Sweep::three_segments)  // any will do: that from the first end
-        chains_[edge] =
-            find_any_chain(snapshot_, particles_[edges_[edge][0]], particles_[edges_[edge][1]], counts_.walk)
-                .chain;
-      else
-        chains_[edge] = edges_[edge][0] == vertex || chain.empty() ? chain : reversed(snapshot_, chain);
+      chains_[edge] = edges_[edge][0] == vertex || chain.empty() ? chain : reversed(snapshot_, chain);
     return tried.answer;
+  }
+
+  /// After three segments any chains will do, and along walls there may be several: takes those of the body.
+  void take_chains(Body<D> body) {
+    Body_counts counts;
+    body.refresh(counts);
+    body.validate();
+    for (std::size_t e = 0; e < edges_.size(); ++e) chains_[e] = body.chain(e);
   }
 
  private:
@@ -238,6 +241,7 @@ class Restatement {
         seen_.by_edges += truth.edges != 0;
         seen_.gone_round += (truth.swept_edges & ~truth.edges) != 0;
       }
+      if (sweep == Sweep::three_segments) ASSERT_NO_THROW(restated.take_chains(body));
       if (random().below(4) > 0) continue;
       body.refresh(seen_.counts);
       ASSERT_NO_THROW(body.validate()) << world_.name << ", step " << step;
