@@ -241,7 +241,9 @@ class Restatement {
         seen_.by_edges += truth.edges != 0;
         seen_.gone_round += (truth.swept_edges & ~truth.edges) != 0;
       }
-      if (sweep == Sweep::three_segments) ASSERT_NO_THROW(restated.take_chains(body));
+      if (sweep == Sweep::three_segments) {
+        ASSERT_NO_THROW(restated.take_chains(body));
+      }
       if (random().below(4) > 0) continue;
       body.refresh(seen_.counts);
       ASSERT_NO_THROW(body.validate()) << world_.name << ", step " << step;
