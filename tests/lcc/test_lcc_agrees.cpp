@@ -168,7 +168,8 @@ class Both {
     const auto found_on_map =
         lcc::exhaustive_search(walker_, on_map(p), to_map_point(target), on_map(q), signs);
     ++seen_.searches;
-    if (bisected && (!bisected_on_map || bisected_on_map->time != lcc::Rational(bisected->time)))
+    if (bisected && (!bisected_on_map || bisected_on_map->time != lcc::Rational(bisected->time)) &&
+        !has_choice_before(p, target, bisected->time))
       note("bisection", p.position, target, &q.position);
     if (bool(found) != bool(found_on_map)) return note("search", p.position, target, &q.position);
     if (!found) return;
@@ -180,6 +181,17 @@ class Both {
     if (std::abs(length(normal) - 1) > 1e-12 ||
         dot(normal, target - p.position) > 1e-9 * length(target - p.position))
       note("normal of a search", p.position, target, &q.position);
+  }
+
+  /// True if p has a choice of sides on its way to a position that a bisection tries which found this time. On
+  /// the snapshot p takes the side that it prefers there, on the map any on which the edge is free.
+  bool has_choice_before(const Particle<D>& p, const Point<D>& target, double found) const {
+    for (double half = 0.5; half >= 0x1p-20; half /= 2) {
+      const double middle = 2 * half * std::floor(found / (2 * half)) + half;
+      Walk_counts counts;
+      if (walk(snapshot_, p, p.position + middle * (target - p.position), counts).had_choice) return true;
+    }
+    return false;
   }
 
   std::string difference(const Walk_result<D>& flat, const lcc::Walk<Map<D>>& mapped,
