@@ -186,10 +186,14 @@ class Both {
   /// True if p has a choice of sides on its way to a position that a bisection tries which found this time. On
   /// the snapshot p takes the side that it prefers there, on the map any on which the edge is free.
   bool has_choice_before(const Particle<D>& p, const Point<D>& target, double found) const {
+    Particle<D> reached = p;
     for (double half = 0.5; half >= 0x1p-20; half /= 2) {
       const double middle = 2 * half * std::floor(found / (2 * half)) + half;
+      const Point<D> to = p.position + middle * (target - p.position);
       Walk_counts counts;
-      if (walk(snapshot_, p, p.position + middle * (target - p.position), counts).had_choice) return true;
+      const Walk_result<D> way = walk(snapshot_, reached, to, counts);
+      if (way.had_choice) return true;
+      if (middle <= found) reached = {to, way.cell, way.dimension, way.aimed};  // the edge was free there
     }
     return false;
   }
