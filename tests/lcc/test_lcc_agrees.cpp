@@ -183,8 +183,8 @@ class Both {
       note("normal of a search", p.position, target, &q.position);
   }
 
-  /// True if p has a choice of sides on its way to a position that a bisection tries which found this time. On
-  /// the snapshot p takes the side that it prefers there, on the map any on which the edge is free.
+  /// True if p has a choice of sides on its way to a position that a bisection tries which found this time.
+  /// On the snapshot p takes the side that it prefers there, on the map any on which the edge is free.
   bool has_choice_before(const Particle<D>& p, const Point<D>& target, double found) const {
     Particle<D> reached = p;
     for (double half = 0.5; half >= 0x1p-20; half /= 2) {
