@@ -13,6 +13,7 @@ import argparse
 import csv
 import subprocess
 import sys
+import zlib
 from collections import Counter
 from math import cos, radians, sin
 from pathlib import Path
@@ -28,9 +29,18 @@ AXES = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
 def read_state(path):
     """The polyline of the last state in a file of SOFA's regression tests: points that follow each other in the same place are one."""
-    *_, last = (line.split()[1:] for line in read_bytes(path).decode().splitlines() if line.split()[:1] == ["X="])
-    points = numpy.array(last, dtype=float).reshape(-1, 3)
-    return points[numpy.append(True, (points[1:] != points[:-1]).any(axis=1))]
+    try:
+        lines = [line.split() for line in read_bytes(path).decode().splitlines()]
+        numbers = numpy.array([words for words in lines if words[:1] in (["T="], ["X="])][-1][1:], dtype=float)
+    except (OSError, EOFError, ValueError, IndexError, zlib.error) as error:
+        sys.exit(f"end_states.py: {path}: no states of points: {error}")
+    if numbers.size < 6 or numbers.size % 3 != 0 or not numpy.isfinite(numbers).all():
+        sys.exit(f"end_states.py: {path}: the last state has {numbers.size} numbers; needs three for each of some points, all finite")
+    points = numbers.reshape(-1, 3)
+    points = points[numpy.append(True, (points[1:] != points[:-1]).any(axis=1))]
+    if len(points) < 2:
+        sys.exit(f"end_states.py: {path}: all points of the last state are in one place")
+    return points
 
 
 def placed(points, turns, scale):
@@ -127,13 +137,15 @@ def judged(source, line, surface, program, folder):
     radius = source["radius"]
     thick = Counter(row["status"] for row in answers(program, environment, line, f"{stem}_thick", "--mode", "sweep", "--radius", repr(float(radius))))
     meeting = edges_that_meet(line, points, triangles)
+    if status["free"] + status["contact"] + status["outside"] != len(line) - 1:
+        sys.exit(f"end_states.py: {source['name']}: answers that are not known: {dict(status)}")
     apart = [0 if i in meeting else d for i, d in enumerate(distances(line, points, triangles))]
     return {
         "name": stem.name,
         "vessel": source["vessel"],
         "edges": len(line) - 1,
         "meet_surface": len(meeting),
-        "nearest": f"{min(apart):.4f}",
+        "nearest": f"{min(apart):.5f}",
         "contact_distance": source["contact_distance"],
         "radius": radius,
         "nearer_than_radius": sum(d < radius for d in apart),
@@ -156,6 +168,7 @@ def main():
     folder = options.out / "end_states"
     folder.mkdir(parents=True, exist_ok=True)
     rows = []
+    (options.out / "end_states.csv").unlink(missing_ok=True)
     for source in sources:
         if source["group"] != "end states":
             continue

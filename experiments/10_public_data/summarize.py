@@ -27,7 +27,7 @@ def group_table(rows, imports):
 
 
 def state_table(rows):
-    heads = ["scene", "vessel", "edges", "meet the surface", "nearest", "contact distance", "radius", "nearer than the radius", "free", "through a cap",
+    heads = ["scene", "vessel", "edges", "meet the surface", "nearest", "contact distance", "radius", "nearer than the radius", "free", "contact",
              "outside", "close"]
     keys = ["edges", "meet_surface", "nearest", "contact_distance", "radius", "nearer_than_radius", "free", "contact", "outside", "close"]
     return table(heads, [[f'`{r["name"]}`', f'`{r["vessel"]}`', *(r[k] for k in keys)] for r in rows], 2)

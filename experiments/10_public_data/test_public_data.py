@@ -15,6 +15,7 @@ import numpy
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
+import end_states  # noqa: E402
 import exact  # noqa: E402
 import quick_case  # noqa: E402
 from tables import read_rows  # noqa: E402
@@ -48,8 +49,15 @@ class PublicData(quick_case.QuickCase):
     def test_an_end_state_is_judged_where_its_scene_has_it(self):
         [row] = read_rows(self.out / "end_states.csv")
         found = {key: row[key] for key in ("edges", "meet_surface", "nearest", "nearer_than_radius", "free", "contact", "outside")}
-        self.assertEqual({"edges": "8", "meet_surface": "1", "nearest": "0.0000", "nearer_than_radius": "4", "free": "3", "contact": "1",
+        self.assertEqual({"edges": "8", "meet_surface": "1", "nearest": "0.00000", "nearer_than_radius": "4", "free": "3", "contact": "1",
                           "outside": "4"}, found)
+
+    def test_states_that_are_none_are_refused_by_name(self):
+        file = self.out / "broken.reference"
+        for text in ("", "T= 0\n", "X= 1 2 3 4\n", "X= 1 1 1 nan 1 1\n", "X= 1 2 3 1 2 3\n", "X= a b c\n", "X= 1 2 3 4 5 6\nT= 1\n"):
+            file.write_text(text)
+            with self.assertRaisesRegex(SystemExit, "broken.reference: "):
+                end_states.read_state(file)
 
 
 class Crossings(unittest.TestCase):
